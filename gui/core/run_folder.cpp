@@ -72,7 +72,7 @@ void History::clear() {
 
 void History::add_line(std::string_view line) {
   const int had = rows();
-  (void)table_.add_line(line, run_folder::OddFields::read_as_nan);  // the other curves go on
+  (void)table_.add_line(line, run_folder::OddFields::read_as_nan);  // the other columns are kept
   if (columns_.isEmpty()) {
     for (const std::string& name : table_.names) columns_ << QString::fromStdString(name);
     largest_.assign(table_.names.size(), 0);

@@ -66,17 +66,17 @@ SolverRun* launch_watched(RunRecord record, const QString& folder, QString* erro
   return SolverRun::launch(record, folder, error) ? new SolverRun(std::move(record), parent, true) : nullptr;
 }
 
-/// Of a run that is no more. @param told  the last it has said
-QString state_after(const RunStatus& told) {
-  if (told.state.isEmpty()) return "failed";
-  return told.over() ? told.state : QString("interrupted");
+/// State of a run whose process has ended. @param status  the last one that it wrote
+QString state_after(const RunStatus& status) {
+  if (status.state.isEmpty()) return "failed";
+  return status.over() ? status.state : QString("interrupted");
 }
 
 QString log_of(const QString& folder) { return folder + ".log"; }
 
 /// What it said in the end, else the end of its log.
-QString last_words(const RunStatus& told, const QString& folder) {
-  if (told.over() && !told.message.isEmpty()) return told.message;
+QString last_words(const RunStatus& status, const QString& folder) {
+  if (status.over() && !status.message.isEmpty()) return status.message;
   QFile file(log_of(folder));
   if (!file.open(QIODevice::ReadOnly)) return {};
   constexpr qint64 kShown = 4000;
@@ -108,9 +108,9 @@ RunRecord record_of(const QJsonObject& json) {
 
 RunOutcome outcome_of(const QString& folder) {
   RunProgress progress(folder);
-  const RunStatus& told = progress.look();
-  const QString state = state_after(told);
-  return {told, state, state == "failed" || state == "interrupted" ? last_words(told, folder) : QString()};
+  const RunStatus& status = progress.look();
+  const QString state = state_after(status);
+  return {status, state, state == "failed" || state == "interrupted" ? last_words(status, folder) : QString()};
 }
 
 SolverRun::SolverRun(RunRecord record, QObject* parent, bool is_new)

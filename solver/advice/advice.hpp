@@ -14,7 +14,7 @@ namespace breccia {
 enum class Level {
   wrong,       ///< the run is not what the case means, or ends with an error: bodies go through each other, loads do
                ///< nothing
-  doubtful,    ///< a value or a lack of one that is hardly meant: a density of no solid, a ramp beyond its stage
+  doubtful,    ///< probably an input error: a density of no solid, a ramp that ends after its stage
   inaccurate,  ///< the answer depends on the mesh, on damping or on how suddenly loads act
   costly       ///< the run takes longer, or more disk, than it needs
 };
@@ -26,7 +26,7 @@ struct Rule {
   const char* name;  ///< as `check` prints it, in brackets
   Level level;
   const char* key;  ///< of the case, as in the schema: what to look at first
-  bool at_start;    ///< `run` warns of it as well
+  bool at_start;    ///< `run` reports it as well, as a warning
   Sentences (*find)(const Subject&);
 };
 
@@ -41,7 +41,8 @@ struct Advice {
 /// In the order of rules(). @param subject  its model is not a bare one
 [[nodiscard]] std::vector<Advice> advise(const Subject& subject);
 
-/// What makes a run something else than can have been meant, though nothing in it fails; a bare model will do.
+/// Findings of the rules that `run` reports as well: the run would not be what the case intends, though nothing fails.
+/// A bare model will do.
 [[nodiscard]] Sentences start_warnings(const case_::Case& input, const Model& model);
 
 }  // namespace breccia

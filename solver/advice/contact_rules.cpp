@@ -144,15 +144,15 @@ Sentences pressed_without_friction(const case_::Case& input, const Model& model)
   return advice;
 }
 
-/// Two entries of [[contact]] that fit a pair of groups and name as many of its groups: told once, with the first pair.
+/// Two entries of [[contact]] that fit a pair of groups and name as many of its groups: reported once, with the first.
 Sentences tied_contacts(const case_::Case& input, const Model& model) {
   Sentences advice;
   const std::vector<std::string>& groups = model.mesh.volume_groups;
-  std::set<std::pair<const case_::Contact*, const case_::Contact*>> told;
+  std::set<std::pair<const case_::Contact*, const case_::Contact*>> reported;
   for (std::size_t a = 0; a < groups.size(); ++a) {
     for (std::size_t b = a; b < groups.size(); ++b) {
       const auto [ruling, overruled] = tied_contact_entries(input, groups[a], groups[b]);
-      if (overruled == nullptr || !told.emplace(ruling, overruled).second) continue;
+      if (overruled == nullptr || !reported.emplace(ruling, overruled).second) continue;
       advice.push_back(fmt::format(
           "Contact between \"{}\" and \"{}\" follows {} (line {}), the later one; {} (line {}) fits as well. Name "
           "the pair in a [[contact]] of its own.",

@@ -116,15 +116,15 @@ Sentences lost_velocity(const case_::Case& input) {
 Sentences load_on_held_nodes(const case_::Case& input, const Model& model) {
   Sentences advice;
   for (const case_::Stage& stage : input.stages) {
-    const auto judge = [&](const case_::Origin& origin, const std::string& group) {
+    const auto report_if_held = [&](const case_::Origin& origin, const std::string& group) {
       if (!wholly_held(stage, model, group)) return;
       advice.push_back(
           fmt::format("{} (line {}) moves nothing: the motion of all nodes of \"{}\" is prescribed along x, y and z.",
                       origin.key, origin.line, group));
     };
-    for (const case_::Pressure& pressure : stage.pressures) judge(pressure.origin, pressure.surface);
-    for (const case_::Traction& traction : stage.tractions) judge(traction.origin, traction.surface);
-    for (const case_::Force& force : stage.forces) judge(force.origin, force.group);
+    for (const case_::Pressure& pressure : stage.pressures) report_if_held(pressure.origin, pressure.surface);
+    for (const case_::Traction& traction : stage.tractions) report_if_held(traction.origin, traction.surface);
+    for (const case_::Force& force : stage.forces) report_if_held(force.origin, force.group);
     for (const std::string& surface : stage.absorbing) {
       if (!wholly_held(stage, model, surface)) continue;
       advice.push_back(fmt::format(

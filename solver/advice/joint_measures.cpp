@@ -105,6 +105,19 @@ double process_zone(const JointLawParams& law, const Sides& sides) {
   return std::min(length / 4, std::numbers::pi * length / 32);
 }
 
+JointMeasures measures_of(const Model& model, std::size_t groups) {
+  const JointLawParams& law = model.joint_laws[groups];
+  JointMeasures m;
+  m.sides = sides_of(model, groups);
+  m.edges = edges_of(model, groups);
+  m.softness = softness_of(model, groups, m.sides.softer_young / law.stiffness);
+  // Joints of one k lie the closer the finer the elements are.
+  m.softest = (m.softness.is_even() ? m.softness.mean : m.softness.most) *
+              (m.edges.graded() ? m.edges.mean / m.edges.fine : 1.0);
+  if (law.breakable()) m.zone = process_zone(law, m.sides);
+  return m;
+}
+
 }  // namespace
 
 std::size_t groups_of(const Model& model, const ModelJoint& joint) {
@@ -120,17 +133,10 @@ std::string Softness::where() const {
   return fmt::format(" along ({:.2g}, {:.2g}, {:.2g})", softest[0], softest[1], softest[2]);
 }
 
-JointMeasures joint_measures(const Model& model, std::size_t groups) {
-  const JointLawParams& law = model.joint_laws[groups];
-  JointMeasures m;
-  m.sides = sides_of(model, groups);
-  m.edges = edges_of(model, groups);
-  m.softness = softness_of(model, groups, m.sides.softer_young / law.stiffness);
-  // Joints of one k lie the closer the finer the elements are.
-  m.softest = (m.softness.is_even() ? m.softness.mean : m.softness.most) *
-              (m.edges.graded() ? m.edges.mean / m.edges.fine : 1.0);
-  if (law.breakable()) m.zone = process_zone(law, m.sides);
-  return m;
+AllJointMeasures joint_measures(const Model& model) {
+  AllJointMeasures all;
+  for (std::size_t l = 0; l < model.joint_law_names.size(); ++l) all.push_back(measures_of(model, l));
+  return all;
 }
 
 bool breaks_inside(const Model& model, Index group) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "model/model.hpp"
 
@@ -48,8 +49,11 @@ struct JointMeasures {
   double zone = 0;     ///< m, least length of the fracture process zone; 0: they cannot break
 };
 
-/// @param groups  index in WholeModel::joint_groups.  O(joints)
-[[nodiscard]] JointMeasures joint_measures(const Model& model, std::size_t groups);
+/// (laws) of each pair of groups in WholeModel::joint_groups.
+using AllJointMeasures = std::vector<JointMeasures>;
+
+/// O(pairs of groups x joints)
+[[nodiscard]] AllJointMeasures joint_measures(const Model& model);
 
 /// Whether a group has joints of its own that can break.
 [[nodiscard]] bool breaks_inside(const Model& model, Index group);

@@ -86,10 +86,10 @@ class Heaviest {
   void add(const std::string& key, Finding finding) {
     const auto [known, fresh] = place_.emplace(key, findings_.size());
     if (fresh) findings_.emplace_back();
-    Finding& told = findings_[known->second];
-    if (!finding.advice.empty() && finding.weight > told.weight) told = std::move(finding);
+    Finding& heaviest = findings_[known->second];
+    if (!finding.advice.empty() && finding.weight > heaviest.weight) heaviest = std::move(finding);
   }
-  [[nodiscard]] Sentences told() {
+  [[nodiscard]] Sentences sentences() {
     Sentences advice;
     for (Finding& finding : findings_) add_to(advice, std::move(finding.advice));
     return advice;
@@ -110,11 +110,11 @@ std::string advised_name(const Model& model, std::size_t l) {
 
 }  // namespace
 
-Sentences soft_joints(const Model& model) {
-  constexpr double kSoftness = 0.05, kWorthRaising = 1.1;  // that is wanted, and more than that is worth a word
+Sentences soft_joints(const Model& model, const AllJointMeasures& joints) {
+  constexpr double kSoftness = 0.05, kWorthRaising = 1.1;  // wanted; reported from this multiple on
   Heaviest soft;
   for (std::size_t l = 0; l < model.joint_law_names.size(); ++l) {
-    const JointMeasures m = joint_measures(model, l);
+    const JointMeasures& m = joints[l];
     if (m.softest <= kWorthRaising * kSoftness) continue;
     soft.add(model.joint_law_keys[l],
              {m.softest, fmt::format("The joints of {} make it {:.1f} % softer{}{}. For 5 % raise joint.penalty (or "
@@ -124,34 +124,34 @@ Sentences soft_joints(const Model& model) {
                                      m.edges.graded() ? " where it is meshed finest" : "", m.softest / kSoftness,
                                      m.edges.graded() ? ", or give joint.size the edges of that part" : "")});
   }
-  return soft.told();
+  return soft.sentences();
 }
 
-Sentences coarse_for_process_zone(const Model& model) {
+Sentences coarse_for_process_zone(const Model& model, const AllJointMeasures& joints) {
   Heaviest zones;
   for (std::size_t l = 0; l < model.joint_law_names.size(); ++l) {
     if (!model.joint_laws[l].breakable()) continue;
-    const JointMeasures m = joint_measures(model, l);
+    const JointMeasures& m = joints[l];
     zones.add(model.joint_law_keys[l],
               {m.edges.mean / m.zone, zone_advice(advised_name(model, l), m.zone, m.edges, path_is_given(model, l))});
   }
-  return zones.told();
+  return zones.sentences();
 }
 
-Sentences sudden_softening(const Model& model, double dt) {
+Sentences sudden_softening(const Model& model, const AllJointMeasures& joints, double dt) {
   // Measured on a glass bar that breaks in tension, with 3.8, 7.6, 10, 15 and 30 steps: residual 6.0, 2.0, 1.25, 0.5
   // and 0.13 %; damping of damaged joints 54, 45, 43, 32 and 18 % of the work; fracture 20 % with 3.8, 27 % with 15.
   constexpr double kEnough = 10;
   Heaviest sudden;
   for (std::size_t l = 0; l < model.joint_law_names.size(); ++l) {
     const JointLawParams& law = model.joint_laws[l];
-    const JointMeasures m = joint_measures(model, l);
+    const JointMeasures& m = joints[l];
     const Index group = m.sides.softer;
     if (!law.breakable() || group < 0) continue;
     const double impedance = std::sqrt(young(model.elastic[at(group)]) * model.density[at(group)]);
     const double steps = law.width_normal * impedance / (2 * law.tensile_strength * dt);
     if (steps >= kEnough) continue;
-    // coarse_for_process_zone says that nothing resolves these.
+    // coarse_for_process_zone reports that no mesh resolves these.
     if (kEnough / steps > kWorthRefining && beyond_refining(m.edges.mean, m.zone)) continue;
     sudden.add(model.joint_law_keys[l],
                {1 / steps, fmt::format("The joints of {} soften within {:.2g} steps, too few to follow: of a glass bar "
@@ -161,7 +161,7 @@ Sentences sudden_softening(const Model& model, double dt) {
                                        "too much). With a time.safety {:.2g} times smaller it is 10 steps.",
                                        advised_name(model, l), steps, kEnough / steps)});
   }
-  return sudden.told();
+  return sudden.sentences();
 }
 
 }  // namespace breccia

@@ -17,9 +17,9 @@ constexpr double kLargestFriction = 3;                        // no surfaces are
 constexpr double kLeastDensity = 10, kLargestDensity = 25e3;  // kg/m3, foams and the heaviest metals
 constexpr double kSlowestWave = 1, kFastestWave = 25e3;       // m/s, jellies and diamond
 constexpr double kLargestStrain = 0.2;                        // at which a joint may begin to break
-constexpr double kHardlyBegun = 0.05;                         // of its course
+constexpr double kHardlyBegun = 0.05;                         // of its length
 
-void judge_friction(Sentences& advice, const case_::Origin& origin, double friction) {
+void check_friction(Sentences& advice, const case_::Origin& origin, double friction) {
   if (!(friction > kLargestFriction)) return;
   const double angle = friction * std::numbers::pi / 180;
   std::string meant;
@@ -29,7 +29,7 @@ void judge_friction(Sentences& advice, const case_::Origin& origin, double frict
                                origin.key, origin.line, friction, meant));
 }
 
-void judge_material(Sentences& advice, const case_::Material& material) {
+void check_material(Sentences& advice, const case_::Material& material) {
   const double speed = std::sqrt(material.young / material.density);
   if (material.density < kLeastDensity || material.density > kLargestDensity)
     advice.push_back(fmt::format(
@@ -41,7 +41,7 @@ void judge_material(Sentences& advice, const case_::Material& material) {
         material.origin.key, material.origin.line, quantity_text(speed, "m/s"), quantity_text(material.young, "Pa")));
 }
 
-void judge_strength(Sentences& advice, const case_::Case& input, const case_::Joint& joint) {
+void check_strength(Sentences& advice, const case_::Case& input, const case_::Joint& joint) {
   const double young = case_::smallest_young(input, joint.groups), strength = joint.tensile_strength;
   if (!(young > 0) || !std::isfinite(strength) || strength <= kLargestStrain * young) return;
   advice.push_back(
@@ -58,27 +58,27 @@ bool is_cut_off(const TimeFunction& function, double start, double end) {
   return end - first < kHardlyBegun * (function.table.back().time - first);
 }
 
-void judge_course(Sentences& advice, const case_::Origin& origin, const TimeFunction& function, double start,
+void check_course(Sentences& advice, const case_::Origin& origin, const TimeFunction& function, double start,
                   double end) {
   if (!is_cut_off(function, start, end)) return;
   advice.push_back(fmt::format(
-      "{} (line {}) has hardly begun when its stage ends: its course goes on to {}, the stage to {}. Times without a "
+      "{} (line {}) has hardly begun when its stage ends: it continues to {}, the stage to {}. Times without a "
       "unit are seconds, counted from the start of the run.",
       origin.key, origin.line, quantity_text(function.table.back().time, "s"), quantity_text(end, "s")));
 }
 
-void judge_courses(Sentences& advice, const case_::Stage& stage, double start) {
-  for (const TimeFunction& f : stage.gravity) judge_course(advice, stage.origin, f, start, stage.end);
+void check_courses(Sentences& advice, const case_::Stage& stage, double start) {
+  for (const TimeFunction& f : stage.gravity) check_course(advice, stage.origin, f, start, stage.end);
   for (const case_::Constraint& entry : stage.constraints) {
-    for (const TimeFunction& f : entry.value) judge_course(advice, entry.origin, f, start, stage.end);
+    for (const TimeFunction& f : entry.value) check_course(advice, entry.origin, f, start, stage.end);
   }
   for (const case_::Pressure& entry : stage.pressures)
-    judge_course(advice, entry.origin, entry.value, start, stage.end);
+    check_course(advice, entry.origin, entry.value, start, stage.end);
   for (const case_::Traction& entry : stage.tractions) {
-    for (const TimeFunction& f : entry.value) judge_course(advice, entry.origin, f, start, stage.end);
+    for (const TimeFunction& f : entry.value) check_course(advice, entry.origin, f, start, stage.end);
   }
   for (const case_::Force& entry : stage.forces) {
-    for (const TimeFunction& f : entry.value) judge_course(advice, entry.origin, f, start, stage.end);
+    for (const TimeFunction& f : entry.value) check_course(advice, entry.origin, f, start, stage.end);
   }
 }
 
@@ -102,8 +102,8 @@ std::string left_out(const case_::Stage& before, const case_::Stage& stage) {
   const auto add = [&](bool had, bool has, const char* what) {
     if (had && !has) words += (words.empty() ? "" : " and ") + std::string(what);
   };
-  add(!before.constraints.empty(), !stage.constraints.empty(), "no [[stage.constraint]]");
-  add(has_gravity(before), has_gravity(stage), "no gravity");
+  add(!before.constraints.empty(), !stage.constraints.empty(), "[[stage.constraint]]");
+  add(has_gravity(before), has_gravity(stage), "gravity");
   return words;
 }
 
@@ -111,20 +111,20 @@ std::string left_out(const case_::Stage& before, const case_::Stage& stage) {
 
 Sentences implausible_material(const case_::Case& input) {
   Sentences advice;
-  for (const case_::Material& material : input.materials) judge_material(advice, material);
+  for (const case_::Material& material : input.materials) check_material(advice, material);
   return advice;
 }
 
 Sentences implausible_strength(const case_::Case& input) {
   Sentences advice;
-  for (const case_::Joint& joint : input.joints) judge_strength(advice, input, joint);
+  for (const case_::Joint& joint : input.joints) check_strength(advice, input, joint);
   return advice;
 }
 
 Sentences implausible_friction(const case_::Case& input) {
   Sentences advice;
-  for (const case_::Joint& joint : input.joints) judge_friction(advice, joint.origin, joint.friction);
-  for (const case_::Contact& contact : input.contacts) judge_friction(advice, contact.origin, contact.friction);
+  for (const case_::Joint& joint : input.joints) check_friction(advice, joint.origin, joint.friction);
+  for (const case_::Contact& contact : input.contacts) check_friction(advice, contact.origin, contact.friction);
   return advice;
 }
 
@@ -132,7 +132,7 @@ Sentences function_cut_off(const case_::Case& input) {
   Sentences advice;
   double start = 0;
   for (const case_::Stage& stage : input.stages) {
-    judge_courses(advice, stage, start);
+    check_courses(advice, stage, start);
     start = stage.end;
   }
   return advice;
@@ -144,9 +144,9 @@ Sentences not_repeated_in_stage(const case_::Case& input) {
     const std::string words = left_out(input.stages[s - 1], input.stages[s]);
     if (words.empty()) continue;
     advice.push_back(fmt::format(
-        "Stage {} has {}, other than the stage before it: nothing is taken over from one stage to the next. "
-        "Repeat in it (line {}) what is to go on.",
-        s, words, input.stages[s].origin.line));
+        "Stage {} lacks the {} of the previous stage: stages do not inherit. Repeat what is to continue in stage {} "
+        "(line {}).",
+        s, words, s, input.stages[s].origin.line));
   }
   return advice;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "advice/joint_measures.hpp"
 #include "advice/overlaps.hpp"
 #include "advice/sentences.hpp"
 #include "advice/step_at_start.hpp"
@@ -69,7 +70,7 @@ namespace breccia {
 [[nodiscard]] Sentences lowered_penalty(const case_::Case& input);
 /// What is pressed between flat bodies without friction is in neutral equilibrium sideways.
 [[nodiscard]] Sentences pressed_without_friction(const case_::Case& input, const Model& model);
-/// Two entries of [[contact]] that fit a pair of groups and name as many of its groups: told once, with the first pair.
+/// Two entries of [[contact]] that fit a pair of groups and name as many of its groups: reported once, with the first.
 [[nodiscard]] Sentences tied_contacts(const case_::Case& input, const Model& model);
 
 // contact_point_rules.cpp
@@ -103,7 +104,7 @@ namespace breccia {
 [[nodiscard]] Sentences sudden_load(const case_::Case& input, const Model& model);
 /// What slides without damping, or with too little.
 [[nodiscard]] Sentences undamped_friction(const case_::Case& input, const Model& model);
-/// Local damping in the last stage, where what slides should go on sliding; before others it finds a state of rest.
+/// Local damping in the last stage, where bodies should continue to slide; in earlier stages it finds a state of rest.
 [[nodiscard]] std::string damped_sliding(const case_::Case& input, const Model& model);
 /// Reactions of a stage that damps what its constraints drive.
 [[nodiscard]] std::string damped_reactions(const case_::Case& input);
@@ -128,13 +129,13 @@ namespace breccia {
 
 // joint_rules.cpp
 /// Joints whose stiffness makes a body noticeably softer.
-[[nodiscard]] Sentences soft_joints(const Model& model);
+[[nodiscard]] Sentences soft_joints(const Model& model, const AllJointMeasures& joints);
 /// Elements larger than a third of the fracture process zone.
-[[nodiscard]] Sentences coarse_for_process_zone(const Model& model);
+[[nodiscard]] Sentences coarse_for_process_zone(const Model& model, const AllJointMeasures& joints);
 /// Joints that open fully within few steps: once one has begun to soften both sides of the crack leave with f_t/(rho c)
-/// each, so that it takes D_n rho c / (2 f_t). Not where no step resolves it, which the rule before tells.
+/// each, so that it takes D_n rho c / (2 f_t). Not where no step resolves it, which the previous rule reports.
 /// @param dt  the step, s
-[[nodiscard]] Sentences sudden_softening(const Model& model, double dt);
+[[nodiscard]] Sentences sudden_softening(const Model& model, const AllJointMeasures& joints, double dt);
 
 // step_rules.cpp: models are not bare
 /// What contact costs: its damping, its penalty, or, if neither, what it will cost once bodies meet.

@@ -13,7 +13,7 @@ Sentences sentences(std::string one) {
   return all;
 }
 
-/// A function of rule_functions.hpp with what it asks for.
+/// A rule from a function of rule_functions.hpp: passes the arguments that the function takes.
 template <auto kFunction>
 Sentences by(const Subject& subject) {
   using F = decltype(kFunction);
@@ -23,8 +23,10 @@ Sentences by(const Subject& subject) {
     return sentences(kFunction(subject.input()));
   else if constexpr (std::is_invocable_v<F, const case_::Case&, const Model&>)
     return sentences(kFunction(subject.input(), subject.model()));
-  else if constexpr (std::is_invocable_v<F, const Model&, double>)
-    return sentences(kFunction(subject.model(), subject.step().dt()));
+  else if constexpr (std::is_invocable_v<F, const Model&, const AllJointMeasures&>)
+    return sentences(kFunction(subject.model(), subject.joints()));
+  else if constexpr (std::is_invocable_v<F, const Model&, const AllJointMeasures&, double>)
+    return sentences(kFunction(subject.model(), subject.joints(), subject.step().dt()));
   else if constexpr (std::is_invocable_v<F, const StepAtStart&>)
     return sentences(kFunction(subject.step()));
   else if constexpr (std::is_invocable_v<F, const Model&, const StepAtStart&>)
@@ -42,11 +44,11 @@ Sentences by(const Subject& subject) {
 }
 
 using enum Level;
-constexpr bool kCheck = false, kRun = true;  // who tells
+constexpr bool kCheck = false, kRun = true;  // at_start: reported by `check` alone, by `run` as well
 
 // clang-format off
 constexpr std::array kRules{  // sorted by level
-    // What is not as the case means it.
+    // The run is not what the case intends.
     Rule{"overlapping_bodies",       wrong,      "contact[].initial_overlap",kCheck, by<overlapping_bodies>},
     Rule{"elements_left_out",        wrong,      "mesh.file",               kRun,   by<elements_left_out>},
     Rule{"unjoined_volumes",         wrong,      "mesh.glue",               kRun,   by<unjoined_volumes>},
@@ -64,7 +66,7 @@ constexpr std::array kRules{  // sorted by level
     Rule{"overruled_constraint",     wrong,      "stage[].constraint[]",    kRun,   by<overruled_constraint>},
     Rule{"unused_joint_law",         wrong,      "joint[].between",         kRun,   by<unused_joint_law>},
     Rule{"tied_contacts",            wrong,      "contact[].between",       kRun,   by<tied_contacts>},
-    // What is hardly meant.
+    // Probable input errors.
     Rule{"unit_of_lengths",          doubtful,   "mesh.scale",              kCheck, by<unit_of_lengths>},
     Rule{"implausible_material",     doubtful,   "material[].density",      kCheck, by<implausible_material>},
     Rule{"implausible_strength",     doubtful,   "joint[].tensile_strength",kCheck, by<implausible_strength>},
@@ -77,7 +79,7 @@ constexpr std::array kRules{  // sorted by level
     Rule{"slice_without_plane",      doubtful,   "plane.kind",              kCheck, by<slice_without_plane>},
     Rule{"pressed_without_friction", doubtful,   "contact[].friction",      kRun,   by<pressed_without_friction>},
     Rule{"long_interval",            doubtful,   "output.frame_interval",   kCheck, by<long_interval>},
-    // What the answer depends on.
+    // Accuracy.
     Rule{"sudden_load",              inaccurate, "stage[].local_damping",   kCheck, by<sudden_load>},
     Rule{"sudden_motion",            inaccurate, "stage[].constraint[]",    kCheck, by<sudden_motion>},
     Rule{"coarse_for_process_zone",  inaccurate, "mesh.file",               kCheck, by<coarse_for_process_zone>},
@@ -91,7 +93,7 @@ constexpr std::array kRules{  // sorted by level
     Rule{"coarse_contact_points",    inaccurate, "contact_points.per_face", kCheck, by<coarse_contact_points>},
     Rule{"raster_planes",            inaccurate, "mesh.raster",             kCheck, by<raster_planes>},
     Rule{"slender_layer",            inaccurate, "plane",                   kCheck, by<slender_layer>},
-    // What it costs.
+    // Cost.
     Rule{"step_of_contact",          costly,     "contact[].penalty",       kCheck, by<step_of_contact>},
     Rule{"step_of_viscosity",        costly,     "material[].viscosity",    kCheck, by<step_of_viscosity>},
     Rule{"one_bad_element",          costly,     "mesh.file",               kCheck, by<one_bad_element>},

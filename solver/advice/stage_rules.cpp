@@ -25,7 +25,7 @@ constexpr double kViscosity = 0.005;
 /// meshes of 5 and 8 mm and rub at most 0.6 % too little, with coefficients of 0.3, 0.6 and 0.9; with 0.03 and 0.6 up
 /// to 5 % too little.
 constexpr double kSlidingViscosity = 0.05;
-/// Share of it that is enough: what was told is rounded.
+/// Share of it that is enough: the reported value is rounded.
 constexpr double kAsTold = 0.95;
 
 /// Whether anything takes energy out of vibrations in a stage.
@@ -76,8 +76,8 @@ std::string sudden_loads(const case_::Stage& stage, const case_::Stage* before, 
     loads += fmt::format("{}the pressure on \"{}\" ({} at once)", loads.empty() ? "" : " and ", p.surface,
                          quantity_text(jump, "Pa"));
   }
-  const auto judge = [&]<class Load>(std::vector<Load> case_::Stage::*member, std::string Load::*name, const char* what,
-                                     const char* unit) {
+  const auto add_jumps = [&]<class Load>(std::vector<Load> case_::Stage::*member, std::string Load::*name,
+                                         const char* what, const char* unit) {
     for (const Load& load : stage.*member) {
       const Vec3 now = sum_at(stage.*member, name, load.*name, start);
       const Vec3 then = before != nullptr ? sum_at(before->*member, name, load.*name, start) : Vec3(Vec3::Zero());
@@ -88,8 +88,8 @@ std::string sudden_loads(const case_::Stage& stage, const case_::Stage* before, 
                            quantity_text(jump, unit));
     }
   };
-  judge(&case_::Stage::tractions, &case_::Traction::surface, "traction", "Pa");
-  judge(&case_::Stage::forces, &case_::Force::group, "force", "N");
+  add_jumps(&case_::Stage::tractions, &case_::Traction::surface, "traction", "Pa");
+  add_jumps(&case_::Stage::forces, &case_::Force::group, "force", "N");
   return loads;
 }
 

@@ -13,7 +13,7 @@
 namespace breccia {
 namespace {
 
-/// Contact that makes the step shorter by this is worth a word; a penalty that makes it so much shorter does not count.
+/// Factors by which contact shortens the step: from the first on it is reported; at the second a penalty is harmless.
 constexpr double kWorthTelling = 1.5, kHardly = 1.1;
 
 /// Factor of the penalties at which contact hardly shortens the step.

@@ -12,6 +12,11 @@ const std::vector<GroupOverlap>& Subject::overlaps() const {
   return *overlaps_;
 }
 
+const AllJointMeasures& Subject::joints() const {
+  if (!joints_) joints_ = std::make_unique<AllJointMeasures>(joint_measures(model_));
+  return *joints_;
+}
+
 const StepAtStart& Subject::step() const {
   if (!step_) step_ = std::make_unique<StepAtStart>(input_, model_);
   return *step_;

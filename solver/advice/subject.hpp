@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "advice/joint_measures.hpp"
 #include "advice/overlaps.hpp"
 #include "advice/rule_functions.hpp"
 #include "advice/step_at_start.hpp"
@@ -25,6 +26,7 @@ class Subject {
 
   /// None where the case starts from a state: its bodies have moved.
   [[nodiscard]] const std::vector<GroupOverlap>& overlaps() const;
+  [[nodiscard]] const AllJointMeasures& joints() const;
   /// @pre the model is not a bare one
   [[nodiscard]] const StepAtStart& step() const;
   /// Number of steps if the first one's length stays.
@@ -36,6 +38,7 @@ class Subject {
   const Model& model_;
   double begun_;
   mutable std::unique_ptr<std::vector<GroupOverlap>> overlaps_;
+  mutable std::unique_ptr<AllJointMeasures> joints_;
   mutable std::unique_ptr<StepAtStart> step_;
 };
 

@@ -321,8 +321,8 @@ CheckReport full_report(const Subject& subject, const std::string& from) {
         from);
   report.text += mesh_report({model.mesh, model.mesh_report}, assess_quality(model.mesh));
   report.text += fmt::format("joints: {}\n", model.joints.size());
-  report.text += joint_report(model) + stiffness_report(model) + separation_report(input, model.mesh.volume_groups) +
-                 overlap_report(subject) + data_report(input);
+  report.text += joint_report(model, subject.joints()) + stiffness_report(model) +
+                 separation_report(input, model.mesh.volume_groups) + overlap_report(subject) + data_report(input);
   report.step = step_report(input, model, subject.step());
   report.estimate = estimate_run(subject, report.step);
   report.text += report.step.text + run_time(model, report.step, report.estimate, input.stages.back().end) +

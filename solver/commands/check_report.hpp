@@ -53,7 +53,7 @@ struct RunEstimate {
 /// The same in one line.
 [[nodiscard]] std::string domain_line(const case_::Case& input, const Model& model, int parts);
 
-/// Everything that can be told before the first step.
+/// Everything that can be reported before the first step.
 struct CheckReport {
   /// Lines: size, stable step and what limits it, steps, memory, run time on this machine (from a few steps of a
   /// scratch copy), joints against the fracture process zone, softness added by the joints.

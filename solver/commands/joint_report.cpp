@@ -5,7 +5,6 @@
 #include <numeric>
 #include <vector>
 
-#include "advice/joint_measures.hpp"
 #include "base/index.hpp"
 
 namespace breccia {
@@ -33,9 +32,8 @@ std::string glue_line(const Model& model, std::size_t l) {
 }
 
 /// The joints of a pair of groups: penalty, softness, process zone.
-std::string law_report(const Model& model, std::size_t l) {
+std::string law_report(const Model& model, std::size_t l, const JointMeasures& m) {
   const JointLawParams& law = model.joint_laws[l];
-  const JointMeasures m = joint_measures(model, l);
   std::string text =
       fmt::format("joints of {}: k = p/h = {:.4g} Pa/m with h = {:.4g} m; they make the body {:.2g} % softer{}{}\n",
                   model.joint_law_names[l], law.stiffness, model.joint_sizes[l], 100 * m.softness.mean,
@@ -49,9 +47,9 @@ std::string law_report(const Model& model, std::size_t l) {
 
 }  // namespace
 
-std::string joint_report(const Model& model) {
+std::string joint_report(const Model& model, const AllJointMeasures& joints) {
   std::string text;
-  for (std::size_t l = 0; l < model.joint_law_names.size(); ++l) text += law_report(model, l);
+  for (std::size_t l = 0; l < model.joint_law_names.size(); ++l) text += law_report(model, l, joints[l]);
   return text;
 }
 

@@ -23,7 +23,7 @@ namespace breccia::run_folder {
 /// What becomes of a field that is no number.
 enum class OddFields { leave_out_the_row, read_as_nan };
 
-/// history.csv by columns; a run adds rows as long as it goes on.
+/// history.csv by columns; a run adds rows until it ends.
 struct History {
   std::vector<std::string> names;            ///< as in the file's first line: "kinetic [J]"
   std::vector<std::vector<double>> columns;  ///< as many; equal lengths

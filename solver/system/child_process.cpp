@@ -76,7 +76,7 @@ struct Pipe {
   }
 };
 
-/// In the child, whose end tells the parent that it could not.
+/// In the child, whose end reports the failure to the parent.
 void write_or_end(int descriptor, std::span<const std::byte> bytes) {
   if (write_all(descriptor, bytes) != 0) ::_exit(1);
 }

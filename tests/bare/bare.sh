@@ -98,7 +98,7 @@ step() {
 }
 
 # Where this machine compiles through ccache, so does the tree, from the same cache. Nothing that is missing is hidden: ccache
-# brings no header or library to compile with, and knows an object again only by the compiler and by all that is included.
+# brings no header or library to compile with, and finds an object only by the compiler and all included files.
 share_compiler_cache() {
   local cache
   command -v ccache >/dev/null || return 0

@@ -45,9 +45,9 @@ class ContinuousIntegration(unittest.TestCase):
         """Exit code and what the script asked ./run for."""
         (self.clone / "asked").unlink(missing_ok=True)
         environment = {**os.environ, "XDG_CACHE_HOME": str(self.cache.parents[1]), "FAILS": fails}
-        told = subprocess.run([".ci/run"], cwd=self.clone, env=environment, capture_output=True, text=True, check=False)
-        self.output = told.stdout
-        return told.returncode, (self.clone / "asked").read_text(encoding="utf-8").splitlines()
+        ended = subprocess.run([".ci/run"], cwd=self.clone, env=environment, capture_output=True, text=True, check=False)
+        self.output = ended.stdout
+        return ended.returncode, (self.clone / "asked").read_text(encoding="utf-8").splitlines()
 
     def test_tries_debian_13_again_when_what_decides_it_has_changed_or_a_week_has_passed(self):
         self.assertEqual(self.asked(), (0, [*ALWAYS, TRIXIE]))

@@ -13,7 +13,7 @@ import xml.etree.ElementTree as ET
 from collections import defaultdict
 from pathlib import PurePosixPath
 
-DEAREST = 40  # rows of the last table
+SLOWEST = 40  # rows of the last table
 FAST = 1.0  # s: what a test with the label `fast` is to take at most, see tests/CMakeLists.txt
 # A discovered name ends with the bytes of its parameter where that has no text; they differ from build to build.
 BYTES_OF_A_PARAMETER = re.compile(r"  # GetParam\(\) = .*$")
@@ -60,7 +60,7 @@ def kind_of(output):
 
 
 def sums(rows):
-    """rows: (group, seconds). [(group, seconds, number)], the dearest group first."""
+    """rows: (group, seconds). [(group, seconds, number)], the slowest group first."""
     seconds, number = defaultdict(float), defaultdict(int)
     for group, time in rows:
         seconds[group] += time
@@ -74,8 +74,8 @@ def table(title, rows):
     return "\n".join(lines)
 
 
-def dearest(title, rows):
-    rows = sorted(rows, key=lambda row: (-row[0], row[1]))[:DEAREST]
+def slowest(title, rows):
+    rows = sorted(rows, key=lambda row: (-row[0], row[1]))[:SLOWEST]
     return "\n".join([title, *(f"{seconds:9.1f} s  {name}" for seconds, name in rows)])
 
 
@@ -86,7 +86,7 @@ def build_report(log):
         f"{len(edges)} edges, {whole:.1f} s in sum (edges run side by side)",
         table("By kind", sums((kind_of(output), seconds) for seconds, output in edges)),
         table("By folder", sums((folder_of(output), seconds) for seconds, output in edges)),
-        dearest("Dearest", edges)])
+        slowest("Slowest", edges)])
 
 
 def read_tests(path):
@@ -104,12 +104,12 @@ def read_tests(path):
 
 
 def read_labels(build):
-    """{name of a test: its labels}, as ctest knows them in a build folder."""
-    told = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True, check=False)
+    """{name of a test: its labels}, as ctest lists them for a build folder."""
+    listed = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True, check=False)
     try:
-        tests = json.loads(told.stdout)["tests"]
+        tests = json.loads(listed.stdout)["tests"]
     except (json.JSONDecodeError, KeyError):
-        raise Unreadable(f"{build}: ctest lists no tests there: {told.stderr.strip()}") from None
+        raise Unreadable(f"{build}: ctest lists no tests there: {listed.stderr.strip()}") from None
     return {BYTES_OF_A_PARAMETER.sub("", test["name"]):
             next((p["value"] for p in test.get("properties", []) if p["name"] == "LABELS"), []) for test in tests}
 
@@ -131,10 +131,10 @@ def tests_report(junit, build):
         f"{len(failed)} failed, {not_run} were not run",
         table("By label (a test with two counts twice)",
               sums((label, seconds) for seconds, name, _ in tests for label in of[name])),
-        table("By suite", sums((suite_of(name), seconds) for seconds, name, _ in tests)[:DEAREST]),
-        dearest("Dearest", [row[:2] for row in tests])]
+        table("By suite", sums((suite_of(name), seconds) for seconds, name, _ in tests)[:SLOWEST]),
+        slowest("Slowest", [row[:2] for row in tests])]
     if slow:
-        parts.append(dearest(f"With the label fast, but more than {FAST:g} s", slow))
+        parts.append(slowest(f"With the label fast, but more than {FAST:g} s", slow))
     if failed:
         parts.append("\n".join(["Failed", *failed]))
     return "\n\n".join(parts)

@@ -41,31 +41,31 @@ class Times(unittest.TestCase):
         return subprocess.run([sys.executable, SCRIPT, *arguments], capture_output=True, text=True, check=False)
 
     def lines(self, *arguments):
-        told = self.call(*arguments)
-        self.assertEqual((told.returncode, told.stderr), (0, ""))
-        return [" ".join(line.split()) for line in told.stdout.splitlines()]
+        ended = self.call(*arguments)
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+        return [" ".join(line.split()) for line in ended.stdout.splitlines()]
 
     def refused(self, *arguments):
-        told = self.call(*arguments)
-        self.assertEqual((told.returncode, told.stdout, told.stderr.count("\n")), (1, "", 1), told.stderr)
-        return told.stderr
+        ended = self.call(*arguments)
+        self.assertEqual((ended.returncode, ended.stdout, ended.stderr.count("\n")), (1, "", 1), ended.stderr)
+        return ended.stderr
 
-    def test_a_build_is_told_by_kind_by_folder_and_by_edge(self):
+    def test_a_build_is_ended_by_kind_by_folder_and_by_edge(self):
         lines = self.lines("build", self.write("log", LOG))
         self.assertEqual(lines[0], "3 edges, 4.0 s in sum (edges run side by side)")
         for line in ("3.5 s 2 compiled", "0.5 s 1 linked and others", "2.0 s 1 solver/base", "2.0 s 2 tests/unit"):
             self.assertIn(line, lines)
-        edges = lines[lines.index("Dearest") + 1:]
+        edges = lines[lines.index("Slowest") + 1:]
         self.assertEqual(edges[0], "2.0 s solver/base/CMakeFiles/breccia_base.dir/old.cpp.o")
         self.assertEqual(len(edges), 3)
 
-    def test_tests_are_told_by_label_by_suite_and_one_by_one(self):
+    def test_tests_are_ended_by_label_by_suite_and_one_by_one(self):
         self.write("CTestTestfile.cmake", TESTFILE)
         lines = self.lines("tests", self.write("junit.xml", JUNIT), str(self.folder))
         self.assertEqual(lines[0], "4 tests, 5.2 s in sum, 7 s on the clock; 1 failed, 1 were not run")
         for line in ("3.0 s 2 unit", "3.0 s 2 fast", "1.0 s 1 mpi", "1.2 s 1 without a label", "3.0 s 2 One", "1.0 s 1 Any/Of"):
             self.assertIn(line, lines)
-        self.assertEqual(lines[lines.index("Dearest") + 1], "2.5 s One.was")
+        self.assertEqual(lines[lines.index("Slowest") + 1], "2.5 s One.was")
         self.assertEqual(lines[lines.index("With the label fast, but more than 1 s") + 1], "2.5 s One.was")
         self.assertEqual(lines[lines.index("Failed") + 1], "One.was")
 

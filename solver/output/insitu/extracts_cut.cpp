@@ -110,15 +110,20 @@ void cut_extracts_back(const fs::path& extracts, const fs::path& index, std::int
 }
 
 void remove_extracts(const fs::path& extracts, const fs::path& index) {
-  const bool has_index = regular_content(index).has_value();
-  cut_extracts_back(extracts, index, 0);
+  const std::optional<std::string> listed = regular_content(index);
+  const std::set<std::int64_t> steps = steps_from(listed.value_or(""), 0);
   const Opened folder = open_folder_of(extracts / "entry", Depth::subfolder);
+  if (!folder && folder.error != ENOENT) throw output_error(extracts, "cannot open this folder: " + folder.reason);
   if (!folder) return;
   std::vector<fs::path> folders{extracts};
   walk_tree(folder.descriptor, extracts, [&](const TreeEntry& entry) {
-    if (entry.kind == EntryKind::folder) folders.push_back(entry.path);
-    if (has_index && entry.kind == EntryKind::file && (is_list(entry) || is_table(entry))) remove_entry(entry);
-    return true;
+    const bool is_extract = entry.kind != EntryKind::other && steps.contains(step_of(entry.name).value_or(-1));
+    const bool lists_extracts = listed && entry.kind == EntryKind::file && (is_list(entry) || is_table(entry));
+    if (is_extract || lists_extracts)
+      remove_entry(entry);
+    else if (entry.kind == EntryKind::folder)
+      folders.push_back(entry.path);
+    return !is_extract;
   });
   std::error_code not_empty;
   for (auto path = folders.rbegin(); path != folders.rend(); ++path) fs::remove(*path, not_empty);

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/raster_case.hpp"
-#include "unit/advice/told_by.hpp"
+#include "unit/advice/advice_of.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia::bending_rules_test {

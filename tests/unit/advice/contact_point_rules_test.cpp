@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "unit/advice/advice_of.hpp"
 #include "unit/advice/contact_model.hpp"
-#include "unit/advice/told_by.hpp"
 
 namespace breccia::contact_point_rules_test {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/raster_case.hpp"
-#include "unit/advice/told_by.hpp"
+#include "unit/advice/advice_of.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia::model_rules_test {
@@ -21,9 +21,9 @@ std::string raster(const std::array<int, 3>& boxes, const std::array<int, 3>& ce
 std::string advice_on(const std::string& text) {
   const case_::Case input = case_::read_text(text);
   const Model model = build_model(input);
-  return test::told_by({"unit_of_lengths", "bodies_without_contact", "fragments_without_contact", "slender_layer",
-                        "raster_planes", "slice_without_plane", "small_sphere"},
-                       Subject(input, model));
+  return test::advice_of({"unit_of_lengths", "bodies_without_contact", "fragments_without_contact", "slender_layer",
+                          "raster_planes", "slice_without_plane", "small_sphere"},
+                         Subject(input, model));
 }
 
 TEST(ModelAdvice, NamesBodiesThatMeetWithoutContact) {

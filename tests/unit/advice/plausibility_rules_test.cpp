@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/raster_case.hpp"
-#include "unit/advice/told_by.hpp"
+#include "unit/advice/advice_of.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia::plausibility_rules_test {
@@ -38,9 +38,9 @@ fixed = "xyz"
 std::string advice_on(const std::vector<std::string>& overrides, const std::string& text = kBrick) {
   const case_::Case input = case_::read_text(text, overrides);
   const Model model;
-  return test::told_by({"implausible_material", "implausible_strength", "implausible_friction", "function_cut_off",
-                        "not_repeated_in_stage", "absorbing_under_gravity"},
-                       Subject(input, model));
+  return test::advice_of({"implausible_material", "implausible_strength", "implausible_friction", "function_cut_off",
+                          "not_repeated_in_stage", "absorbing_under_gravity"},
+                         Subject(input, model));
 }
 
 std::string without(const std::string& part) {
@@ -67,14 +67,15 @@ TEST(Plausibility, OfOtherUnitsIsDoubted) {
 TEST(Plausibility, OfACourseThatLiesBeyondItsStageIsDoubted) {
   const std::string ramp = "stage[0].gravity=[0, 0, { ramp = { to = -9.81, end = ";
   EXPECT_THAT(advice_on({ramp + "1 } }]"}),
-              AllOf(HasSubstr("stage[0] (line "), HasSubstr("goes on to 1 s, the stage to 1 ms")));
-  EXPECT_EQ(advice_on({ramp + "\"2 ms\" } }]"}), "") << "goes on in the next stage";
+              AllOf(HasSubstr("stage[0] (line "), HasSubstr("continues to 1 s, the stage to 1 ms")));
+  EXPECT_EQ(advice_on({ramp + "\"2 ms\" } }]"}), "") << "it continues in the next stage";
 }
 
 TEST(Plausibility, OfAStageThatDoesNotRepeatTheSupportsOrTheGravityIsDoubted) {
   EXPECT_THAT(advice_on({}, without("[[stage.constraint]]\ngroup = \"raster.z0\"\nfixed = \"xyz\"\n")),
-              HasSubstr("Stage 1 has no [[stage.constraint]], other than the stage before it"));
-  EXPECT_THAT(advice_on({}, without("gravity = [0, 0, -9.81]\n")), HasSubstr("Stage 1 has no gravity"));
+              HasSubstr("Stage 1 lacks the [[stage.constraint]] of the previous stage"));
+  EXPECT_THAT(advice_on({}, without("gravity = [0, 0, -9.81]\n")),
+              HasSubstr("Stage 1 lacks the gravity of the previous stage"));
 }
 
 TEST(Plausibility, OfGravityOnABaseThatAbsorbsFromTheStartIsDoubted) {

@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "commands/refusals.hpp"
-#include "unit/advice/told_by.hpp"
+#include "unit/advice/advice_of.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia::stage_rules_test {
@@ -21,7 +21,7 @@ const std::string kGravity = "gravity = [0, 0, \"-9.81 m/s2\"]\n";
 
 std::string stage_advice(const case_::Case& input) {
   const Model model = build_bare_model(input);
-  return test::told_by(
+  return test::advice_of(
       {"sudden_load", "sudden_motion", "undamped_friction", "damped_sliding", "damped_reactions", "long_interval"},
       Subject(input, model));
 }

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/raster_case.hpp"
-#include "unit/advice/told_by.hpp"
+#include "unit/advice/advice_of.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia::start_warnings_test {
@@ -43,7 +43,7 @@ TEST(Unmeant, IsASphereAroundNothing) {
     return advice_on("[sphere]\nradius = \"" + radius + "\"\npenalty = 1e9\n");
   };
   EXPECT_THAT(sphere("1 mm"), AllOf(HasSubstr("The sphere is around nothing"), HasSubstr("more than 0.02532 m")));
-  EXPECT_EQ(sphere("20 mm"), "") << "it holds a part: small_sphere tells";
+  EXPECT_EQ(sphere("20 mm"), "") << "it holds a part: small_sphere reports it";
 }
 
 TEST(Unmeant, IsContactWithoutContactPoints) {

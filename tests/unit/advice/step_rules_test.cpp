@@ -8,7 +8,7 @@
 
 #include "case/reader.hpp"
 #include "support/raster_case.hpp"
-#include "unit/advice/told_by.hpp"
+#include "unit/advice/advice_of.hpp"
 
 namespace breccia::step_rules_test {
 namespace {
@@ -44,7 +44,7 @@ Checked check(const std::string& text) {
   Model model = build_model(input);
   const Subject subject(input, model);
   const std::string advice =
-      test::told_by({"step_of_contact", "step_of_viscosity", "step_too_long", "one_bad_element", "slivers"}, subject);
+      test::advice_of({"step_of_contact", "step_of_viscosity", "step_too_long", "one_bad_element", "slivers"}, subject);
   const double limit = subject.step().now().step;
   return {std::move(input), std::move(model), limit, advice};
 }
@@ -63,7 +63,7 @@ TEST(StepReport, BlamesAViscosityForTheStepItCostsAndNamesOneThatCostsLittle) {
       std::regex("Viscosity makes the step ([0-9.e+]+) times shorter \\(material.viscosity of box: 1 MPa s\\); "
                  "([0-9.]+) kPa s would make it 1.2 times shorter")))
       << advice;
-  constexpr double kTwoDigits = 0.05;  // as many as are told
+  constexpr double kTwoDigits = 0.05;  // as many as are printed
   EXPECT_NEAR(std::stod(found[1]) * much.limit / plain, 1.0, kTwoDigits);
   const Checked little = with(found[2].str() + "e3");
   EXPECT_NEAR(plain / little.limit, 1.2, kTwoDigits);
@@ -94,7 +94,7 @@ TEST(StepReport, BlamesTheDampingOfContactForTheStepItCosts) {
                                            "meet; a tenth of it would make it ([0-9.]+) times")))
       << advice;
   EXPECT_THAT(advice, Not(HasSubstr("a penalty of")));
-  constexpr double kTwoDigits = 0.05;  // as many as are told
+  constexpr double kTwoDigits = 0.05;  // as many as are printed
   const double plain = with("0").limit;
   EXPECT_NEAR(std::stod(found[1]) * much.limit / plain, 1.0, kTwoDigits);
   EXPECT_NEAR(std::stod(found[2]) * with("0.1").limit / plain, 1.0, kTwoDigits);

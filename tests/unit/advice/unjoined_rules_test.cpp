@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "case/reader.hpp"
-#include "unit/advice/told_by.hpp"
+#include "unit/advice/advice_of.hpp"
 #include "unit/case/case_files.hpp"
 #include "unit/model/two_boxes.hpp"
 

@@ -17,8 +17,8 @@ inline std::string as_list(const Sentences& sentences) {
   return text;
 }
 
-/// What some rules say, likewise. Throws where a name is that of no rule.
-inline std::string told_by(std::initializer_list<std::string_view> names, const Subject& subject) {
+/// The sentences of some rules, likewise. Throws where a name is that of no rule.
+inline std::string advice_of(std::initializer_list<std::string_view> names, const Subject& subject) {
   std::string text;
   for (const std::string_view name : names) {
     const auto known = [&](const Rule& rule) { return rule.name == name; };
