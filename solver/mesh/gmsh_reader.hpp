@@ -35,7 +35,7 @@ struct GmshSource {
 /// "surface_<tag>". Node groups: the physical curves and points, "curve_<tag>", "point_<tag>"; nodes of no element are
 /// left out. Volumes are those of the geometry, by ascending tag: partitions of one are one. Element source ids are
 /// gmsh's. A .geo is meshed on one thread, from gmsh's fixed random seed: the same file and parameters give the same
-/// mesh; so is a solid, whose groups mesh/gmsh_solids.hpp tells. A STEP file states the unit of its lengths.
+/// mesh; so is a solid, whose groups mesh/gmsh/solids.hpp tells. A STEP file states the unit of its lengths.
 ///
 /// The file is read by a child process without the right to run, write or connect to anything (system/confinement.hpp),
 /// and to read anything outside the folders of the file and of the case (system/file_access.hpp, where the kernel has

@@ -1,4 +1,4 @@
-#include "mesh/stl_solids.hpp"
+#include "mesh/gmsh/stl_solids.hpp"
 
 #include <gmsh.h>
 
@@ -13,7 +13,7 @@
 
 #include "base/index.hpp"
 #include "mesh/closed_surface.hpp"
-#include "mesh/solid_groups.hpp"
+#include "mesh/gmsh/solid_groups.hpp"
 #include "mesh/stl_file.hpp"
 
 namespace breccia {

@@ -6,7 +6,7 @@
 
 #include "mesh/gmsh_reader.hpp"
 
-// Groups of the volumes and surfaces of a solid that gmsh has open; for gmsh_solids.cpp and stl_solids.cpp.
+// Groups of the volumes and surfaces of a solid that gmsh has open; for solids.cpp and stl_solids.cpp.
 namespace breccia::solids {
 
 /// Throws InputError about the file.

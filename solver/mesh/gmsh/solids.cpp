@@ -1,4 +1,4 @@
-#include "mesh/gmsh_solids.hpp"
+#include "mesh/gmsh/solids.hpp"
 
 #include <gmsh.h>
 
@@ -11,9 +11,9 @@
 
 #include "base/error.hpp"
 #include "base/geometry_file.hpp"
-#include "mesh/solid_groups.hpp"
+#include "mesh/gmsh/solid_groups.hpp"
+#include "mesh/gmsh/stl_solids.hpp"
 #include "mesh/step_scan.hpp"
-#include "mesh/stl_solids.hpp"
 
 namespace breccia {
 namespace {

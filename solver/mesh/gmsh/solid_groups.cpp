@@ -1,4 +1,4 @@
-#include "mesh/solid_groups.hpp"
+#include "mesh/gmsh/solid_groups.hpp"
 
 #include <gmsh.h>
 

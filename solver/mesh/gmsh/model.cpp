@@ -1,4 +1,4 @@
-#include "mesh/gmsh_model.hpp"
+#include "mesh/gmsh/model.hpp"
 
 #include <gmsh.h>
 
