@@ -51,6 +51,22 @@ group = "surface_1"
 fixed = "xyz"
 )";
 
+TEST(Solid, ALibraryOfGmshThatCannotBeLoadedIsNamedOnce) {
+  const Scratch scratch;
+  scratch.write("beam.stl", beam());
+  scratch.write("libbreccia_gmsh.so", "no library");
+  const std::string file = scratch.write("case.toml", kCase),
+                    environment = "LD_LIBRARY_PATH='" + scratch.path("").string() + "'";
+  const std::string run = "run " + file + " -o ", words = "the library that reads meshes with gmsh cannot be loaded";
+  for (const Outcome& outcome :
+       {call("check " + file, environment), call(run + scratch.path("one").string(), environment),
+        call_ranks(2, run + scratch.path("two").string(), environment)}) {
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find(words), outcome.err.rfind(words)) << "twice: " << outcome.err;
+  }
+}
+
 TEST(Solid, ACaseOfAnStlIsCheckedAndRunWithTheSameBitsOnTwoRanks) {
   const Scratch scratch;
   scratch.write("beam.stl", beam());
