@@ -77,7 +77,7 @@ int dispatch(const std::string& command, Arguments& a, const Communicator& world
   if (command == "live") return live_command(a.live);
   if (command == "insitu info") return insitu_info_command();
   if (command == "schema") return schema_command(a.schema_json);
-  return explain_command(a.key);
+  return explain_command(a.key, a.explain_all);
 }
 
 /// Prints what went wrong where `prints`: one rank for all.

@@ -40,7 +40,7 @@ QString case_text(const QString& file, const QStringList& groups, double metres)
   out += "joints = \"breakable\"\n\n[[joint]]\ngroup = " + (names.size() == 1 ? all : quoted("*")) + "\n";
   for (const MaterialValue& v : material.values)
     if (v.key.startsWith("joint.")) out += v.key.mid(6) + " = " + v.toml + "\n";
-  out += "\n[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = " + material.value("young") + "\nfriction = 0.4\n";
+  out += "\n[[contact]]\nbetween = [\"*\", \"*\"]\nfriction = 0.4\n";
   return out + "\n[[stage]]\nend = \"1 ms\"\n\n[output]\nframe_interval = \"20 us\"\n";
 }
 

@@ -84,8 +84,11 @@ void ContactMatrix::show_cell(int row, int column) {
     words = tr("do not meet");
   } else if (!path.isEmpty()) {
     const QString friction = shown_value(case_::key_of("contact[].friction"), document_.value(path + ".friction"));
-    words = shown_value(case_::key_of("contact[].penalty"), document_.value(path + ".penalty")) + ", μ " +
-            (friction.isEmpty() ? shown_default(case_::key_of("contact[].friction")) : friction);
+    const QString penalty = document_.value(path + ".penalty"), factor = document_.value(path + ".penalty_factor");
+    words = (penalty.isEmpty()
+                 ? (factor.isEmpty() ? shown_default(case_::key_of("contact[].penalty_factor")) : factor) + " E"
+                 : shown_value(case_::key_of("contact[].penalty"), penalty)) +
+            ", μ " + (friction.isEmpty() ? shown_default(case_::key_of("contact[].friction")) : friction);
   }
   if (table_->item(row, column) == nullptr) table_->setItem(row, column, new QTableWidgetItem);
   QTableWidgetItem* cell = table_->item(row, column);

@@ -6,7 +6,8 @@
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QSignalBlocker>
-#include <QVBoxLayout>
+#include <algorithm>
+#include <functional>
 
 #include "core/case_outline.hpp"
 #include "core/geometry_import.hpp"
@@ -43,6 +44,14 @@ void limit_width(QComboBox& box) {
   box.setMinimumContentsLength(8);
 }
 
+QFormLayout* new_form(QVBoxLayout& column) {
+  auto* form = new QFormLayout;
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  form->setRowWrapPolicy(QFormLayout::WrapLongRows);
+  column.addLayout(form);
+  return form;
+}
+
 bool stands_at(const std::string& key, const std::string& path) {
   return key == path || key.starts_with(path + "[") || key.starts_with(path + ".");
 }
@@ -77,18 +86,55 @@ void PropertyForm::show_section(const QString& path) {
   heading_->setWordWrap(true);
   heading_->setObjectName("section_help");
   column->addWidget(heading_);
-  auto* form = new QFormLayout;
-  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  form->setRowWrapPolicy(QFormLayout::WrapLongRows);
-  column->addLayout(form);
+  QFormLayout* const form = new_form(*column);
   parameter_rows_ = parameter_rows(parameters_, document_.places());
-  for (const Key* key : keys_in(pattern)) {
+  more_ = nullptr;
+  const std::vector<const Key*> keys = keys_in(pattern);
+  const auto comes_first = [&](const Key* key) {
+    return key->level == case_::Level::basic || key->required || !document_.value(path_of(*key)).isEmpty();
+  };
+  const auto folded = std::count_if(keys.begin(), keys.end(), std::not_fn(comes_first));
+  const bool folds = folded > 0 && folded < static_cast<std::ptrdiff_t>(keys.size());
+  QFormLayout* const rest = folds ? add_folded_rows(*column, static_cast<int>(folded)) : form;
+  for (const Key* key : keys) {
+    QFormLayout& rows = comes_first(key) ? *form : *rest;
     const bool as_rows = key->type == ValueType::parameters && !holds_no_table(*key);
-    as_rows ? add_parameters(*key, *form) : add_field(*key, *form);
+    as_rows ? add_parameters(*key, rows) : add_field(*key, rows);
   }
   column->addStretch();
   setWidget(page);  // deletes the one before
   refresh();
+}
+
+QFormLayout* PropertyForm::add_folded_rows(QVBoxLayout& column, int keys) {
+  more_ = new QToolButton;
+  more_->setObjectName("expert_keys");
+  more_->setText(tr("%n more for experts", nullptr, keys));
+  more_->setToolTip(tr("Keys that most cases leave at their defaults"));
+  more_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  more_->setAutoRaise(true);
+  more_->setCheckable(true);
+  more_->setFocusPolicy(Qt::StrongFocus);
+  folded_ = new QWidget;
+  QToolButton* const more = more_;
+  QWidget* const rows = folded_;
+  const auto show = [more, rows](bool on) {
+    more->setArrowType(on ? Qt::DownArrow : Qt::RightArrow);
+    rows->setVisible(on);
+  };
+  column.addWidget(more_);
+  column.addWidget(folded_);
+  connect(more_, &QToolButton::toggled, this, show);
+  connect(more_, &QToolButton::clicked, this, [this](bool on) { unfolded_ = on; });
+  more_->setChecked(unfolded_);
+  show(unfolded_);
+  auto* inner = new QVBoxLayout(folded_);
+  inner->setContentsMargins(0, 0, 0, 0);
+  return new_form(*inner);
+}
+
+void PropertyForm::unfold_for(const QWidget* editor) {
+  if (more_ != nullptr && folded_->isAncestorOf(editor)) more_->setChecked(true);
 }
 
 /// It names the entry, which an edit or an undo may have given another name.
@@ -339,6 +385,7 @@ void PropertyForm::mark_problems() {
       if (it->is_box ? p.key == it.key().toStdString() : stands_at(p.key, it.key().toStdString()))
         words = QString::fromStdString(p.text());
     it->mark->setVisible(!words.isEmpty());
+    if (!words.isEmpty()) unfold_for(it->editor);
     it->mark->setText(words.isEmpty() ? QString() : "⚠");
     it->mark->setToolTip(words);
     it->mark->setAccessibleName(words.isEmpty() ? QString() : tr("Problem: %1").arg(words));
@@ -384,6 +431,7 @@ bool PropertyForm::eventFilter(QObject* watched, QEvent* event) {
 void PropertyForm::focus_field(const QString& path) {
   for (auto it = fields_.begin(); it != fields_.end(); ++it) {
     if (it->is_box || !stands_at(path.toStdString(), it.key().toStdString())) continue;
+    unfold_for(it->editor);
     ensureWidgetVisible(it->editor);
     it->editor->setFocus(Qt::OtherFocusReason);
   }

@@ -7,6 +7,7 @@
 #include <QMap>
 #include <QScrollArea>
 #include <QToolButton>
+#include <QVBoxLayout>
 
 #include "case/schema.hpp"
 #include "core/document.hpp"
@@ -63,6 +64,10 @@ class PropertyForm final : public QScrollArea {
   /// Where the numbers of the geometry or of the case are others than those of the rows.
   void follow_parameters();
   void show_again();
+  /// A button and, below it, the rows for experts, which it shows.
+  [[nodiscard]] QFormLayout* add_folded_rows(QVBoxLayout& column, int keys);
+  /// A field that is folded away is shown.
+  void unfold_for(const QWidget* editor);
   void finish_row(const QString& path, const Field& field, QHBoxLayout& cells);
   /// What stands at a key of a table is none.
   [[nodiscard]] bool holds_no_table(const case_::Key& key) const;
@@ -91,6 +96,9 @@ class PropertyForm final : public QScrollArea {
   std::optional<std::vector<MeshParameter>> parameters_;
   std::vector<ParameterRow> parameter_rows_;  ///< that are shown
   QString picks_for_;                         ///< path of the field that waits for a click
+  QToolButton* more_ = nullptr;               ///< shows the fields for experts; nullptr: there are none
+  QWidget* folded_ = nullptr;                 ///< around these fields
+  bool unfolded_ = false;                     ///< as the user left the button, for the next section too
 };
 
 }  // namespace breccia::gui

@@ -10,6 +10,7 @@
 
 #include "base/index.hpp"
 #include "base/quantity_text.hpp"
+#include "case/groups.hpp"
 #include "mesh/bodies.hpp"
 #include "mesh/geometry.hpp"
 #include "model/parameters.hpp"
@@ -114,16 +115,31 @@ Sentences soft_penalty(const case_::Case& input, const Model& model) {
   return advice;
 }
 
+namespace {
+
+/// Of an entry, for the stiffest pair of groups that it fits; Pa.
+double penalty_of(const case_::Case& input, const case_::Contact& entry) {
+  if (entry.penalty_factor == 0) return entry.penalty;
+  double young = 0;
+  for (const case_::Material& a : input.materials)
+    for (const case_::Material& b : input.materials)
+      if (case_::fits(entry.groups, a.group, b.group)) young = std::max(young, std::min(a.young, b.young));
+  return entry.penalty_factor * young;
+}
+
+}  // namespace
+
 Sentences lowered_penalty(const case_::Case& input) {
   Sentences advice;
   for (const case_::Contact& entry : input.contacts) {
     const double largest = largest_penalty(entry.plateau, entry.unloading_exponent);
-    if (!(entry.plateau > 0) || !(entry.penalty > largest)) continue;
+    const double penalty = penalty_of(input, entry);
+    if (!(entry.plateau > 0) || !(penalty > largest)) continue;
     advice.push_back(fmt::format(
         "The contact penalty between \"{}\" and \"{}\" (line {}) acts as {}, not {}: so its plateau of {} begins at an "
         "overlap of {:.2g} H. Within less the steps would not resolve it; bodies would chatter and sink.",
-        entry.groups[0], entry.groups[1], entry.origin.line, quantity_text(largest, "Pa"),
-        quantity_text(entry.penalty, "Pa"), quantity_text(entry.plateau, "Pa"), entry.plateau / largest));
+        entry.groups[0], entry.groups[1], entry.origin.line, quantity_text(largest, "Pa"), quantity_text(penalty, "Pa"),
+        quantity_text(entry.plateau, "Pa"), entry.plateau / largest));
   }
   return advice;
 }

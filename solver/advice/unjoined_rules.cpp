@@ -70,7 +70,7 @@ std::string remedy(const case_::Case& input, const std::string& group, bool of_o
     return "the mesh has their interface twice: use Coherence or BooleanFragments in the geometry, or "
            "mesh.merge_nodes.";
   const case_::Contact* contact = contact_entry(input, group, group);
-  return contact != nullptr && contact->penalty > 0
+  return contact != nullptr && contact->interaction == case_::Interaction::contact
              ? "mesh.glue = true makes them one solid. As they are, like stones without mortar, contact alone keeps "
                "them apart."
              : "mesh.glue = true makes them one solid. As they are nothing keeps them apart: that takes a [[contact]] "

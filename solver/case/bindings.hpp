@@ -75,6 +75,24 @@ void bind(A& a, Material& material) {
   a.choice("joints", material.joints);
 }
 
+/// The penalty of a joint or a contact, in Pa or as a multiple of Young's modulus; the factor is kept where the groups
+/// are any, since it depends on the pair.
+template <class A, class Entry>
+void bind_penalty(A& a, Entry& entry) {
+  if constexpr (A::reads) {
+    a.at_most_one({"penalty", "penalty_factor"});
+    if (a.has("penalty")) return a.value("penalty", entry.penalty);
+    double factor = 0;
+    a.value("penalty_factor", factor);
+    const bool of_any = entry.groups[0] == every_group || entry.groups[1] == every_group;
+    (of_any ? entry.penalty_factor : entry.penalty) = of_any ? factor : factor * a.smallest_young(entry.groups);
+  } else if (entry.penalty_factor > 0) {
+    a.value("penalty_factor", entry.penalty_factor);
+  } else {
+    a.value("penalty", entry.penalty);
+  }
+}
+
 /// The keys of a joint of which one or the other is given.
 template <class A>
 void bind_alternatives(A& a, Joint& joint) {
@@ -86,15 +104,6 @@ void bind_alternatives(A& a, Joint& joint) {
       a.value("group", joint.groups[0]);
       joint.groups[1] = joint.groups[0];
       joint.inside_any = joint.groups[0] == every_group;
-    }
-    a.at_most_one({"penalty", "penalty_factor"});
-    if (a.has("penalty")) {
-      a.value("penalty", joint.penalty);
-    } else {
-      double factor = 0;
-      a.value("penalty_factor", factor);
-      const bool of_any = joint.groups[0] == every_group || joint.groups[1] == every_group;
-      (of_any ? joint.penalty_factor : joint.penalty) = of_any ? factor : factor * a.smallest_young(joint.groups);
     }
     a.at_most_one({"friction", "friction_angle"});
     if (a.has("friction_angle")) {
@@ -109,10 +118,6 @@ void bind_alternatives(A& a, Joint& joint) {
       a.value("group", joint.groups[0]);
     else
       a.value("between", joint.groups);
-    if (joint.penalty_factor > 0)
-      a.value("penalty_factor", joint.penalty_factor);
-    else
-      a.value("penalty", joint.penalty);
     a.value("friction", joint.friction);
   }
 }
@@ -121,6 +126,7 @@ template <class A>
 void bind(A& a, Joint& joint) {
   a.origin(joint.origin);
   bind_alternatives(a, joint);
+  bind_penalty(a, joint);
   a.choice("law", joint.law);
   a.choice("rise", joint.rise);
   a.choice("points", joint.points);
@@ -154,7 +160,7 @@ void bind(A& a, Contact& contact) {
     if constexpr (A::reads) a.only({"between", "interaction"}, "interaction = \"none\"");
     return;
   }
-  a.value("penalty", contact.penalty);
+  bind_penalty(a, contact);
   a.value("plateau", contact.plateau);
   a.value("unloading_exponent", contact.unloading_exponent);
   a.value("friction", contact.friction);

@@ -169,6 +169,7 @@ struct Contact {
   std::array<std::string, 2> groups;
   Interaction interaction = Interaction::contact;           ///< none: no other key has an effect
   double penalty = 0;                                       ///< Pa, sigma_p: stress at overlap d = 1
+  double penalty_factor = 0;                                ///< as Joint::penalty_factor
   double plateau = 0;                                       ///< Pa, sigma_T; 0: none
   double unloading_exponent = 1;                            ///< b >= 1
   double friction = 0;                                      ///< Coulomb mu

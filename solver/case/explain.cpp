@@ -67,12 +67,26 @@ std::string start_text(const Key& key) {
   return why.empty() ? "" : "as in the run that it starts from: " + std::string(why);
 }
 
-std::string section_text(const Key& section) {
+/// The keys and sections of a section, "" for the top: those that any user needs first.
+std::string lines_of(const Key* section, bool all) {
+  const std::string_view path = section != nullptr ? section->path : "";
+  std::string basic, expert;
+  std::vector<std::string> names;
+  const bool none_basic = section != nullptr && level_of(*section) == Level::expert;
+  for (const Key& key : schema()) {
+    if (key.section() != path || (section == nullptr && key.is_section())) continue;
+    const bool first = none_basic || key.required || level_of(key) == Level::basic;
+    (first ? basic : expert) += key.is_section() ? "  " + header_of(key) + "\n" : line_of(key);
+    if (!first) names.push_back(key.is_section() ? header_of(key) : std::string(key.name()));
+  }
+  if (all || names.empty()) return basic + expert;
+  return basic + wrapped("expert (--all): " + joined(names), "  ");
+}
+
+std::string section_text(const Key& section, bool all) {
   std::string out = header_of(section) + "\n" + wrapped(std::string(section.help), "  ");
   if (!section.fixed_by_state.empty()) out += wrapped("With [start]: " + start_text(section) + ".", "  ");
-  for (const Key& key : schema())
-    if (key.section() == section.path) out += key.is_section() ? "  " + header_of(key) + "\n" : line_of(key);
-  return out;
+  return out + lines_of(&section, all);
 }
 
 std::string key_text(const Key& key) {
@@ -83,6 +97,7 @@ std::string key_text(const Key& key) {
   std::string allowed = allowed_text(key);
   if (const std::size_t star = allowed.find(" in *"); star != std::string::npos)
     allowed.replace(star, 4 + key.unit.size(), " in " + unit_text(key));
+  if (key.level == Level::expert) field("level", "expert");
   field("start", start_text(key));
   field("default", default_text(key));
   field("unit", unit_text(key));
@@ -93,7 +108,7 @@ std::string key_text(const Key& key) {
   return out;
 }
 
-std::string text_of(const Key& key) { return key.is_section() ? section_text(key) : key_text(key); }
+std::string text_of(const Key& key, bool all) { return key.is_section() ? section_text(key, all) : key_text(key); }
 
 std::string topic_text(std::string_view word, const Topic& topic) {
   std::string keys(topic.keys);
@@ -131,26 +146,33 @@ std::vector<std::string> keys_that_say(const std::string& word) {
 
 }  // namespace
 
-std::string explain() {
+std::string explain(bool all) {
   std::string out =
       "Keys of a case file (TOML): name, default, meaning [SI unit]. Numbers are SI; texts may carry a unit, "
       "\"26.6 GPa\".\n" +
       wrapped(units_help(), "") +
       "`breccia explain KEY` tells more about one, and what a word of the field "
       "is called here: `breccia explain notch`.\n\n";
-  for (const Key& key : schema())
-    if (key.section().empty() && !key.is_section()) out += line_of(key);
-  for (const Key& key : schema())
-    if (key.is_section()) out += "\n" + section_text(key);
+  out += lines_of(nullptr, all);
+  std::vector<std::string> others;
+  for (const Key& key : schema()) {
+    if (!key.is_section()) continue;
+    if (all || level_of(key) == Level::basic)
+      out += "\n" + section_text(key, all);
+    else
+      others.push_back(header_of(key));
+  }
+  if (!others.empty())
+    out += "\n" + wrapped("Sections for experts: " + joined(others) + ". `breccia explain --all` lists all keys.", "");
   return out;
 }
 
-std::string explain(std::string_view key) {
+std::string explain(std::string_view key, bool all) {
   const std::string wanted = plain_path(key);
   std::string by_name;
   for (const Key& row : schema()) {
-    if (plain_path(row.path) == wanted) return text_of(row);
-    if (row.name() == wanted) by_name += (by_name.empty() ? "" : "\n") + text_of(row);
+    if (plain_path(row.path) == wanted) return text_of(row, all);
+    if (row.name() == wanted) by_name += (by_name.empty() ? "" : "\n") + text_of(row, all);
   }
   if (!by_name.empty()) return by_name;
 
@@ -159,12 +181,12 @@ std::string explain(std::string_view key) {
   if (second != std::string::npos) {
     const std::string section = wanted.substr(0, first), rest = wanted.substr(second);
     for (const Key& row : schema())
-      if (row.path.starts_with(section + "[]") && plain_path(row.path) == section + rest) return text_of(row);
+      if (row.path.starts_with(section + "[]") && plain_path(row.path) == section + rest) return text_of(row, all);
   }
 
   if (const Topic* topic = topic_of(key)) return topic_text(key, *topic);
   for (const Key& row : schema())
-    if (row.name() == as_name(key)) by_name += (by_name.empty() ? "" : "\n") + text_of(row);
+    if (row.name() == as_name(key)) by_name += (by_name.empty() ? "" : "\n") + text_of(row, all);
   if (!by_name.empty()) return by_name;
 
   std::vector<std::string> paths;

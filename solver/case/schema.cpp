@@ -126,6 +126,16 @@ const Key* find_key(std::string_view pattern) {
   return it == index.end() ? nullptr : it->second;
 }
 
+Level level_of(const Key& key) {
+  if (!key.is_section()) return key.level;
+  const auto below = [&](const Key& row) {
+    return row.level == Level::basic && row.path.size() > key.path.size() && row.path.starts_with(key.path) &&
+           row.path[key.path.size()] == '.';
+  };
+  const std::span<const Key> rows = schema();
+  return std::any_of(rows.begin(), rows.end(), below) ? Level::basic : Level::expert;
+}
+
 std::string_view fixed_by_state(std::string_view pattern) {
   for (std::string_view at = pattern; !at.empty(); at = key_of(at).section()) {
     const std::string_view why = key_of(at).fixed_by_state;

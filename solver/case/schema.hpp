@@ -53,9 +53,13 @@ struct Range {
   friend bool operator==(const Range&, const Range&) = default;
 };
 
+/// Who needs a key: any user, or one who knows why.
+enum class Level { expert, basic };
+
 /// One row of the table.
 struct Key {
-  std::string_view path{};  ///< pattern: "material[].density"; [] stands for any index
+  std::string_view path{};      ///< pattern: "material[].density"; [] stands for any index
+  Level level = Level::expert;  ///< of a key, see level_of(); basic ones come first where keys are listed
   ValueType type = ValueType::section;
   std::string_view unit =
       "1";  ///< SI, as units.hpp reads it; "1": none; in <function> keys "*" is the unit of the value
@@ -84,6 +88,9 @@ inline constexpr std::string_view may_change = "-";
 
 /// Why what stands at a pattern cannot change in a run that starts from the state of another; empty: it can.
 [[nodiscard]] std::string_view fixed_by_state(std::string_view pattern);
+
+/// The level of a section is that of its keys and sections: basic where one of them is.
+[[nodiscard]] Level level_of(const Key& key);
 
 /// All rows, sections before their keys, in the order of a case file.
 [[nodiscard]] std::span<const Key> schema();

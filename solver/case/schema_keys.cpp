@@ -9,7 +9,7 @@ namespace {
 // Packed by hand: with a line a field the table could not be read.
 // clang-format off
 constexpr auto model_keys = std::to_array<Key>({
-    {.path = "title", .type = text, .fallback = "\"\"",
+    {.path = "title", .level = basic, .type = text, .fallback = "\"\"",
      .help = "What the case shows, in a line; copied to every result.",
      .example = "\"Glass plate hit by a projectile\""},
 
@@ -17,7 +17,7 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "The run goes on from the state of another run, with other loads, constraints, stages, strengths, contact "
              "laws or output. Time and steps go on counting there, and so does the energy put in. `breccia explain "
              "KEY` says what cannot change; sections that cannot may be left out."},
-    {.path = "start.from", .type = path, .required = true,
+    {.path = "start.from", .level = basic, .type = path, .required = true,
      .help = "Folder of a run, or one of its checkpoints (checkpoints/step_*.h5). Relative to the case file.",
      .example = "\"../settle/run\""},
     {.path = "start.at", .type = number, .unit = "s", .fallback = "last", .range = positive, .word = "last",
@@ -28,23 +28,24 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "mesh", .type = section, .required = true,
      .help = "Where the tetrahedra come from: a file or the raster generator.",
      .fixed_by_state = "elements and nodes are those of the state"},
-    {.path = "mesh.file", .type = path,
+    {.path = "mesh.file", .level = basic, .type = path,
      .help = "Geometry (.geo) or mesh (.msh) of gmsh, solids as STEP (.step, .stp), BREP or STL, or a mesh of another "
              "program (.inp, .unv, .bdf, .mesh). Relative to the case file. Each volume and face of a "
              "solid is a group, named as in the STEP file, or volume_N and surface_N.",
      .example = "\"geometry.geo\""},
-    {.path = "mesh.parameters", .type = parameters, .fallback = "{}",
+    {.path = "mesh.parameters", .level = basic, .type = parameters, .fallback = "{}",
      .help = "Numbers handed to a .geo file, each in place of the DefineConstant of its name. Plain "
              "numbers are passed unchanged. With a unit, lengths, areas and volumes are converted to the unit of "
              "length of the file (mesh.scale), all else to SI.",
      .example = "{ h = \"2.5 mm\", n = 3 }"},
-    {.path = "mesh.scale", .type = number, .fallback = "1", .range = positive,
+    {.path = "mesh.scale", .level = basic, .type = number, .fallback = "1", .range = positive,
      .help = "Metres a unit of length of the mesh file: 0.001 for a file in millimetres. A STEP file states its unit.",
      .example = "0.001"},
-    {.path = "mesh.size", .type = number, .unit = "m", .fallback = "auto", .range = positive, .word = "auto",
+    {.path = "mesh.size", .level = basic, .type = number, .unit = "m", .fallback = "auto", .range = positive,
+     .word = "auto",
      .help = "Edge of the elements that a STEP, BREP or STL file is meshed with. auto: a tenth of the cube root of the "
              "volume of its box.", .example = "\"2.5 mm\""},
-    {.path = "mesh.glue", .type = boolean, .fallback = "false",
+    {.path = "mesh.glue", .level = basic, .type = boolean, .fallback = "false",
      .help = "Whether volumes that share a conforming interface are one body with joints there, or only touch.",
      .example = "true"},
     {.path = "mesh.merge_nodes", .type = number, .unit = "m", .fallback = "0", .range = not_negative,
@@ -66,17 +67,19 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "mesh.raster.kind", .type = choice, .fallback = "cubes", .choices = "cubes|tetrahedra",
      .help = "Boxes of cubes of 24 tetrahedra, or one regular tetrahedron of edge cell_size a box.",
      .example = "\"tetrahedra\""},
-    {.path = "mesh.raster.cells", .type = integers_or_one, .fallback = "[1, 1, 1]", .range = count,
+    {.path = "mesh.raster.cells", .level = basic, .type = integers_or_one, .fallback = "[1, 1, 1]", .range = count,
      .help = "Cubes of one box along x, y and z.", .example = "[4, 4, 1]"},
-    {.path = "mesh.raster.cell_size", .type = vector_or_number, .unit = "m", .required = true, .range = positive,
+    {.path = "mesh.raster.cell_size", .level = basic, .type = vector_or_number, .unit = "m", .required = true,
+     .range = positive,
      .help = "Edges of a cube along x, y and z.", .example = "\"2.5 mm\""},
-    {.path = "mesh.raster.boxes", .type = integers_or_one, .fallback = "[1, 1, 1]", .range = count,
+    {.path = "mesh.raster.boxes", .level = basic, .type = integers_or_one, .fallback = "[1, 1, 1]", .range = count,
      .help = "Boxes along x, y and z.", .example = "[8, 8, 8]"},
     {.path = "mesh.raster.gap", .type = vector_or_number, .unit = "m", .fallback = "[0, 0, 0]", .range = not_negative,
      .help = "Free space between neighbouring boxes along x, y and z.", .example = "\"1 mm\""},
-    {.path = "mesh.raster.origin", .type = vector, .unit = "m", .fallback = "[0, 0, 0]",
+    {.path = "mesh.raster.origin", .level = basic, .type = vector, .unit = "m", .fallback = "[0, 0, 0]",
      .help = "Lowest corner of the first box.", .example = "[\"-30 mm\", \"-30 mm\", 0]"},
-    {.path = "mesh.raster.group", .type = text, .fallback = "raster", .help = "Name of the volume group of every box.",
+    {.path = "mesh.raster.group", .level = basic, .type = text, .fallback = "raster",
+     .help = "Name of the volume group of every box.",
      .example = "\"block\""},
     {.path = "mesh.raster.random_orientation", .type = boolean, .fallback = "false",
      .help = "Turn every box about its centre by a random rotation drawn from the seed.", .example = "true"},
@@ -95,44 +98,47 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Plane strain or stress: the model is a slice, one flat layer of elements of the thickness of about one "
              "element. Masses, loads and energies are those of the slice; its two flat sides carry no contact points.",
      .fixed_by_state = "which faces carry contact points is part of the state"},
-    {.path = "plane.kind", .type = choice, .required = true, .choices = "strain|stress",
+    {.path = "plane.kind", .level = basic, .type = choice, .required = true, .choices = "strain|stress",
      .help = "strain: nothing moves along the axis, as inside a long body. stress: nothing acts along it, as in a thin "
              "plate: the lower side stays in its plane, which is the middle one of a plate of twice the thickness, and "
              "the upper side is free. Strong pressure in the plane may make joints slide across the "
              "thickness.", .example = "\"strain\""},
-    {.path = "plane.axis", .type = choice, .fallback = "z", .choices = "x|y|z",
+    {.path = "plane.axis", .level = basic, .type = choice, .fallback = "z", .choices = "x|y|z",
      .help = "Axis across the layer.", .example = "\"y\""},
 
     {.path = "material[]", .type = section_list, .required = true,
      .help = "Law and density of a volume group, or of several that are alike."},
-    {.path = "material[].group", .type = text_or_list, .required = true,
+    {.path = "material[].group", .level = basic, .type = text_or_list, .required = true,
      .help = "Physical volume group of the mesh, or a list of groups; \"*\": all without an entry of their own.",
      .example = "\"glass\""},
-    {.path = "material[].law", .type = choice, .fallback = "neo_hookean", 
+    {.path = "material[].law", .level = basic, .type = choice, .fallback = "neo_hookean", 
      .choices = "neo_hookean|green_st_venant|drucker_prager",
      .help = "Law of the bulk. neo_hookean, elastic, gives back all energy of a closed strain loop; green_st_venant is "
              "the published elastic law; drucker_prager yields and flows: the keys from friction_angle on are "
              "its. Elements of constant strain are too stiff where it flows without change of volume: a strip footing "
              "carries 45 % too much on five elements under half of it, 28 % on ten.",
      .example = "\"drucker_prager\"", .fixed_by_state = "what the elements remember is of this law"},
-    {.path = "material[].young", .type = number, .unit = "Pa", .required = true, .range = stiffnesses,
+    {.path = "material[].young", .level = basic, .type = number, .unit = "Pa", .required = true, .range = stiffnesses,
      .help = "Young's modulus.", .example = "\"75 GPa\""},
-    {.path = "material[].poisson", .type = number, .required = true,
+    {.path = "material[].poisson", .level = basic, .type = number, .required = true,
      .range = {.lower = -1, .upper = 0.5, .lower_open = true, .upper_open = true}, .help = "Poisson's ratio.",
      .example = "0.2"},
-    {.path = "material[].density", .type = number, .unit = "kg/m3", .required = true, .range = densities,
+    {.path = "material[].density", .level = basic, .type = number, .unit = "kg/m3", .required = true,
+     .range = densities,
      .help = "Mass density at rest.", .example = "\"2456 kg/m3\"",
      .fixed_by_state = "the momentum of the state belongs to its masses"},
     {.path = "material[].viscosity", .type = number, .unit = "Pa s", .fallback = "0", .range = viscosities,
      .help = "Viscosity mu of the stress 2 mu D added to the elastic one, D the rate of deformation.",
      .example = "\"10 Pa s\""},
-    {.path = "material[].friction_angle", .type = number, .unit = "rad", .fallback = "0", .range = angle,
+    {.path = "material[].friction_angle", .level = basic, .type = number, .unit = "rad", .fallback = "0",
+     .range = angle,
      .help = "Friction angle phi of the cone. A sample under lateral pressure s yields in compression at "
              "s (1 + sin phi)/(1 - sin phi) + 2 cohesion cos(phi)/(1 - sin phi).", .example = "\"35 deg\""},
     {.path = "material[].dilation_angle", .type = number, .unit = "rad", .fallback = "0", .range = angle,
      .help = "Dilation angle of the flow, at most the friction angle: how much volume shearing adds.",
      .example = "\"10 deg\""},
-    {.path = "material[].cohesion", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
+    {.path = "material[].cohesion", .level = basic, .type = number, .unit = "Pa", .fallback = "0",
+     .range = not_negative,
      .help = "Cohesion of the cone.", .example = "\"8 MPa\""},
     {.path = "material[].hardening", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
      .help = "Cohesion gained a unit of plastic shear strain (engineering). The strength of a sample in uniaxial "
@@ -146,7 +152,8 @@ constexpr auto model_keys = std::to_array<Key>({
      .example = "\"150 MPa\""},
     {.path = "material[].cap_hardening", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
      .help = "Cap pressure gained a unit of crushed volume (logarithmic strain).", .example = "\"2 GPa\""},
-    {.path = "material[].joints", .type = choice, .fallback = "breakable", .choices = "breakable|unbreakable|none",
+    {.path = "material[].joints", .level = basic, .type = choice, .fallback = "breakable",
+     .choices = "breakable|unbreakable|none",
      .help = "Joints between the elements of the group: ones that can fail, ones that cannot, or none: then the "
              "elements share nodes.", .example = "\"none\"",
      .fixed_by_state = "who shares nodes and who may touch whom is part of the state; strengths may change"},
@@ -154,10 +161,10 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "joint[]", .type = section_list,
      .help = "Law of the joints inside a group, or on the glued interface of two, which breaks where it has a "
              "strength. Every breakable group needs one. A pair by name goes before one with \"*\"."},
-    {.path = "joint[].group", .type = text_or_list,
+    {.path = "joint[].group", .level = basic, .type = text_or_list,
      .help = "Group whose inner joints follow this law, or a list of groups; \"*\": all with joints and without an "
              "entry of their own. Give this or between.", .example = "\"glass\""},
-    {.path = "joint[].between", .type = text_pair,
+    {.path = "joint[].between", .level = basic, .type = text_pair,
      .help = "Two groups whose glued interface follows this law, also where both have joints = \"none\" inside. "
              "Without strengths it holds for good; between two breakable groups it needs them. \"*\" stands for every "
              "other group. Give this or group.", .example = "[\"brick\", \"mortar\"]"},
@@ -176,30 +183,31 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "joint[].penalty", .type = number, .unit = "Pa", .range = stiffnesses,
      .help = "Penalty p of the joint stiffness k = p/h before the peak. Give this or penalty_factor.",
      .example = "\"26.6 GPa\""},
-    {.path = "joint[].penalty_factor", .type = number, .fallback = "100", .range = positive,
+    {.path = "joint[].penalty_factor", .level = basic, .type = number, .fallback = "100", .range = positive,
      .help = "Joint penalty as a multiple of Young's modulus (the smaller one of two groups). Joints soften a body by "
              "about 2.7/penalty_factor.", .example = "50"},
     {.path = "joint[].size", .type = number, .unit = "m", .fallback = "auto", .range = positive, .word = "auto",
      .help = "Length h of the joint stiffness k = p/h. auto: the mean edge of the joints that this entry governs.",
      .example = "\"20 mm\""},
-    {.path = "joint[].tensile_strength", .type = number, .unit = "Pa", .range = positive,
+    {.path = "joint[].tensile_strength", .level = basic, .type = number, .unit = "Pa", .range = positive,
      .help = "Greatest normal traction. Needed where joints can fail. A crack of an unstructured mesh follows edges: "
              "bars in tension broke at 11 to 20 % more than this, by mesh, at 7 to 11 % with a shear strength no "
              "larger; a cylinder in compression at 34 % above Mohr-Coulomb, also by the friction of its ends "
              "(meshes/cylinder); a Brazilian disc of a few process zones at 91 % more (meshes/disc).",
      .example = "\"10 MPa\""},
-    {.path = "joint[].shear_strength", .type = number, .unit = "Pa", .fallback = "= tensile_strength",
+    {.path = "joint[].shear_strength", .level = basic, .type = number, .unit = "Pa", .fallback = "= tensile_strength",
      .range = positive, .help = "Greatest shear traction without normal pressure (cohesion).", .example = "\"20 MPa\""},
-    {.path = "joint[].friction", .type = number, .fallback = "0", .range = not_negative,
+    {.path = "joint[].friction", .level = basic, .type = number, .fallback = "0", .range = not_negative,
      .help = "Coefficient of friction: slope of the Mohr-Coulomb strength, and friction of closed joints, damaged "
              "or failed, until they have opened. It follows the normal traction at once: interfaces that slide "
              "undamped vibrate and rub with 0.29 for 0.3, 0.55 to 0.57 for 0.6. The viscosity that check names cures "
              "that.", .example = "0.6"},
     {.path = "joint[].friction_angle", .type = number, .unit = "rad", .range = angle,
      .help = "Friction as an angle, whose tangent is the coefficient. Give this or friction.", .example = "\"30 deg\""},
-    {.path = "joint[].energy_mode_1", .type = number, .unit = "J/m2", .range = positive,
+    {.path = "joint[].energy_mode_1", .level = basic, .type = number, .unit = "J/m2", .range = positive,
      .help = "Fracture energy of opening. Needed where joints can fail.", .example = "\"10 J/m2\""},
-    {.path = "joint[].energy_mode_2", .type = number, .unit = "J/m2", .fallback = "= energy_mode_1", .range = positive,
+    {.path = "joint[].energy_mode_2", .level = basic, .type = number, .unit = "J/m2", .fallback = "= energy_mode_1",
+     .range = positive,
      .help = "Fracture energy of sliding.", .example = "\"30 N/m\""},
     {.path = "joint[].energy_counts", .type = choice, .fallback = "whole_curve",
      .choices = "softening_branch|whole_curve",
@@ -239,19 +247,21 @@ constexpr auto model_keys = std::to_array<Key>({
 
     {.path = "contact[]", .type = section_list,
      .help = "Contact of a pair of groups. A pair by name goes before one with \"*\". A case without any has none."},
-    {.path = "contact[].between", .type = text_pair, .required = true,
+    {.path = "contact[].between", .level = basic, .type = text_pair, .required = true,
      .help = "Two groups; \"*\": every group.", .example = "[\"*\", \"*\"]"},
-    {.path = "contact[].interaction", .type = choice, .fallback = "contact", .choices = "contact|none",
+    {.path = "contact[].interaction", .level = basic, .type = choice, .fallback = "contact", .choices = "contact|none",
      .help = "none: the groups do not meet: each passes through the other, also what fractures free later; of a group "
              "with itself, its bodies and fragments. Such an entry has no other keys.", .example = "\"none\""},
     {.path = "contact[].penalty", .type = number, .unit = "Pa", .range = stiffnesses,
-     .help = "Contact stress at overlap 1; needed but with interaction none. The overlap is g/H, g in m, H the mean "
-             "inradius of the elements of the body that is entered (a fifth of an edge), so the stiffness is "
-             "penalty/H, Pa/m; `breccia check` prints both for every pair. Where flat faces meet and both carry "
-             "points, both press: up to twice that stress. Recommended: Young's modulus of the softer body, a third "
-             "of it where breakable bodies with unequal meshes strike each other flat (points that hit first damage "
-             "joints); up to ten times it where overlaps must be small, for a time step up to three times shorter; "
-             "of bodies that slide see friction.", .example = "\"7500 GPa\""},
+     .help = "Contact stress at overlap 1. The overlap is g/H, g in m, H the mean inradius of the elements of the body "
+             "that is entered (a fifth of an edge), so the stiffness is penalty/H, Pa/m; `breccia check` prints both "
+             "for every pair. Where flat faces meet and both carry points, both press: up to twice that stress. Give "
+             "this or penalty_factor.", .example = "\"7500 GPa\""},
+    {.path = "contact[].penalty_factor", .level = basic, .type = number, .fallback = "1", .range = positive,
+     .help = "Contact penalty as a multiple of Young's modulus (the smaller one of two groups). A third where "
+             "breakable bodies with unequal meshes strike each other flat (points that hit first damage joints); up to 10 where "
+             "overlaps must be small, for a time step up to three times shorter; of bodies that slide see friction.",
+     .example = "0.33"},
     {.path = "contact[].plateau", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
      .help = "Stress sigma that loading of the points of a face does not pass; 0: none. Flat faces of area A that both "
              "carry points press with up to 2 A sigma. Measured on two cubes: 1.9 A sigma, and 0.94 with points_on = "
@@ -259,11 +269,12 @@ constexpr auto model_keys = std::to_array<Key>({
              "unloading_exponent, about b/2000 of an edge: a penalty above 400 plateau/b acts as that (check says so). "
              "Steps that do not resolve the way to the plateau would let bodies sink and gain energy.",
      .example = "\"60 MPa\""},
-    {.path = "contact[].unloading_exponent", .type = number, .fallback = "1", .range = {.lower = 1, .upper = 100},
+    {.path = "contact[].unloading_exponent", .level = basic, .type = number, .fallback = "1", .range = {.lower = 1,
+     .upper = 100},
      .help = "Exponent b of the unloading curve: 1 gives all energy back, more dissipates. Below the plateau 2/(b + 1) "
              "of what contact stores comes back, a restitution of sqrt(2/(b + 1)) for bodies far stiffer than the "
              "penalty: 0.82 for 2, 0.71 for 3, 0.47 for 8.", .example = "2"},
-    {.path = "contact[].friction", .type = number, .fallback = "0", .range = not_negative,
+    {.path = "contact[].friction", .level = basic, .type = number, .fallback = "0", .range = not_negative,
      .help = "Coefficient of Coulomb friction.", .example = "0.3"},
     {.path = "contact[].friction_delay", .type = number, .fallback = "6", .range = not_negative,
      .help = "Longest delay with which friction follows the normal force, in crossings of the smaller body by a wave "
@@ -319,22 +330,22 @@ constexpr auto model_keys = std::to_array<Key>({
 
     {.path = "joints", .type = section, .help = "Joints that are special from the start of the run.",
      .fixed_by_state = "they were broken before the first step of the first run; stage.broken breaks more"},
-    {.path = "joints.broken", .type = text_list, .fallback = "[]",
+    {.path = "joints.broken", .level = basic, .type = text_list, .fallback = "[]",
      .help = "Surfaces whose joints are broken from the start.", .example = "[\"slit\"]"},
 
     {.path = "initial_velocity[]", .type = section_list,
      .help = "Velocity of the bodies of a group at the start; its parts add up. What is joined is one body.",
      .fixed_by_state = "it was given before the first step of the first run; the velocities are those of the state"},
-    {.path = "initial_velocity[].group", .type = text_or_list, .required = true,
+    {.path = "initial_velocity[].group", .level = basic, .type = text_or_list, .required = true,
      .help = "Physical volume group, or a list of groups.", .example = "\"projectile\""},
-    {.path = "initial_velocity[].velocity", .type = vector, .unit = "m/s", .fallback = "[0, 0, 0]",
+    {.path = "initial_velocity[].velocity", .level = basic, .type = vector, .unit = "m/s", .fallback = "[0, 0, 0]",
      .help = "Of all bodies alike.", .example = "[0, \"-3 m/s\", 0]"},
     {.path = "initial_velocity[].random", .type = number_pair, .unit = "m/s", .fallback = "[0, 0]",
      .range = not_negative, .help = "Smallest and greatest speed; one is drawn for every body, in a random direction.",
      .example = "[0, \"137 m/s\"]"},
     {.path = "initial_velocity[].seed", .type = integer, .fallback = "1", .range = seed,
      .help = "Seed of the random velocities.", .example = "7"},
-    {.path = "initial_velocity[].angular", .type = vector, .unit = "rad/s", .fallback = "[0, 0, 0]",
+    {.path = "initial_velocity[].angular", .level = basic, .type = vector, .unit = "rad/s", .fallback = "[0, 0, 0]",
      .help = "Rotation of each body about its centre of mass. Masses are lumped at the nodes: moments of inertia of a "
              "coarse body are above those of the solid, 12 to 30 % for a box of 1 x 2 x 3 cells.",
      .example = "[0, 0, \"90 deg/s\"]"},
@@ -346,15 +357,16 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "stage[]", .type = section_list, .required = true,
      .help = "A part of the run with its own loads and constraints; it starts from the state in which the previous one "
              "ended."},
-    {.path = "stage[].name", .type = text, .fallback = "\"\"", .help = "Name of the stage, for messages and --set.",
+    {.path = "stage[].name", .level = basic, .type = text, .fallback = "\"\"",
+     .help = "Name of the stage, for messages and --set.",
      .example = "\"impact\""},
-    {.path = "stage[].end", .type = number, .unit = "s", .required = true, .range = durations,
+    {.path = "stage[].end", .level = basic, .type = number, .unit = "s", .required = true, .range = durations,
      .help = "Time at which the stage ends, counted from the start of the run.", .example = "\"100 us\""},
-    {.path = "stage[].gravity", .type = function_vector, .unit = "m/s2", .fallback = "[0, 0, 0]",
+    {.path = "stage[].gravity", .level = basic, .type = function_vector, .unit = "m/s2", .fallback = "[0, 0, 0]",
      .help = "Acceleration of gravity along x, y and z, as functions of time.", .example = "[0, 0, \"-9.81 m/s2\"]"},
     {.path = "stage[].mass_damping", .type = number, .unit = "1/s", .fallback = "0", .range = not_negative,
      .help = "Factor alpha of the damping force -alpha m v.", .example = "\"10 1/s\""},
-    {.path = "stage[].local_damping", .type = number, .fallback = "0",
+    {.path = "stage[].local_damping", .level = basic, .type = number, .fallback = "0",
      .range = {.lower = 0, .upper = 1, .upper_open = true},
      .help = "Damping against the velocity, as a share beta of the unbalanced force on each node: 0.3 to 0.5 find a "
              "state of rest quickly. The step is shorter by sqrt(5 + 5 beta). What has come to rest is in equilibrium "
@@ -366,7 +378,7 @@ constexpr auto model_keys = std::to_array<Key>({
              "(output.gauges) while anything accelerates or breaks: they include what the damping takes, 1/(1 - beta) "
              "times the force where a body is accelerated.",
      .example = "0.5"},
-    {.path = "stage[].broken", .type = text_list, .fallback = "[]",
+    {.path = "stage[].broken", .level = basic, .type = text_list, .fallback = "[]",
      .help = "Surfaces whose joints are broken when the stage starts. What they hold by then counts as dissipated in "
              "the mode in which they were opened.", .example = "[\"front\"]"},
     {.path = "stage[].absorbing", .type = text_list, .fallback = "[]",
@@ -380,42 +392,43 @@ constexpr auto model_keys = std::to_array<Key>({
              "free. A patch of several nodes is clamped: it cannot turn; what is held along a straight curve turns "
              "about it as on a hinge. A roller or a pin is a small body of its own that is held or driven and presses "
              "through contact."},
-    {.path = "stage[].constraint[].group", .type = text_or_list, .required = true,
+    {.path = "stage[].constraint[].group", .level = basic, .type = text_or_list, .required = true,
      .help = "Physical volume, surface, curve or point of the mesh, or a list of them. A curve or point means its "
              "nodes, and is meant only where no volume or surface has its name. What is held there alone yields the "
              "more, the finer the elements around it are.", .example = "\"support\""},
-    {.path = "stage[].constraint[].fixed", .type = axes, .help = "Axes along which the nodes stay where they are.",
+    {.path = "stage[].constraint[].fixed", .level = basic, .type = axes,
+     .help = "Axes along which the nodes stay where they are.",
      .example = "\"xyz\""},
-    {.path = "stage[].constraint[].velocity", .type = axis_functions, .unit = "m/s",
+    {.path = "stage[].constraint[].velocity", .level = basic, .type = axis_functions, .unit = "m/s",
      .help = "Velocity by axis, functions of time. One that is not 0 at the start strikes what rests with a wave of "
              "stress rho c v; a ramp over many crossings of a wave does not.", .example = "{ y = \"-1 mm/s\" }"},
-    {.path = "stage[].constraint[].displacement", .type = axis_functions, .unit = "m",
+    {.path = "stage[].constraint[].displacement", .level = basic, .type = axis_functions, .unit = "m",
      .help = "Displacement by axis since the start of the stage, functions of time.",
      .example = "{ x = { table = [[0, 0], [\"1 ms\", \"1 mm\"]] } }"},
 
     {.path = "stage[].pressure[]", .type = section_list,
      .help = "Pressure on a surface that follows its faces; both sides of an inner surface are loaded."},
-    {.path = "stage[].pressure[].surface", .type = text_or_list, .required = true,
+    {.path = "stage[].pressure[].surface", .level = basic, .type = text_or_list, .required = true,
      .help = "Physical surface group, or a list of groups.", .example = "\"slit\""},
-    {.path = "stage[].pressure[].value", .type = function, .unit = "Pa", .required = true,
+    {.path = "stage[].pressure[].value", .level = basic, .type = function, .unit = "Pa", .required = true,
      .help = "Function of time; positive pushes into the body.", .example = "{ linear = \"20 GPa/s\" }"},
 
     {.path = "stage[].traction[]", .type = section_list,
      .help = "Force on a surface for each unit of its area at rest, in a direction that stays when the faces turn; "
              "both sides of an inner surface are loaded alike."},
-    {.path = "stage[].traction[].surface", .type = text_or_list, .required = true,
+    {.path = "stage[].traction[].surface", .level = basic, .type = text_or_list, .required = true,
      .help = "Physical surface group, or a list of groups.", .example = "\"crest\""},
-    {.path = "stage[].traction[].value", .type = function_vector, .unit = "Pa", .required = true,
+    {.path = "stage[].traction[].value", .level = basic, .type = function_vector, .unit = "Pa", .required = true,
      .help = "Along x, y and z, functions of time.", .example = "[\"1 MPa\", 0, \"-2 MPa\"]"},
 
     {.path = "stage[].force[]", .type = section_list,
      .help = "Force on a group as a whole, in a direction that stays, shared among its nodes: of a surface by area at "
              "rest, of a volume, curve or point by mass. What it acts on at a curve or point yields the more, the "
              "finer the elements there are, and may be torn off."},
-    {.path = "stage[].force[].group", .type = text_or_list, .required = true,
+    {.path = "stage[].force[].group", .level = basic, .type = text_or_list, .required = true,
      .help = "Physical volume, surface, curve or point; each of a list takes the whole force.",
      .example = "\"loaded line\""},
-    {.path = "stage[].force[].value", .type = function_vector, .unit = "N", .required = true,
+    {.path = "stage[].force[].value", .level = basic, .type = function_vector, .unit = "N", .required = true,
      .help = "Along x, y and z, functions of time.", .example = "[0, \"-500 N\", 0]"},
 
     {.path = "time", .type = section, .help = "Time steps and what stops a run early."},

@@ -10,6 +10,7 @@ namespace breccia::case_ {
 
 using namespace ranges;
 using enum ValueType;
+using enum Level;
 
 // Packed by hand: with a line a field the table could not be read.
 // clang-format off
@@ -62,16 +63,19 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .help = "Steps between checkpoints; 0: not by steps.", .example = "10000"},
     {.path = "checkpoint.interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
      .help = "Simulated time between checkpoints; 0: not by simulated time.", .example = "\"1 ms\""},
-    {.path = "checkpoint.wall_interval", .type = number, .unit = "s", .fallback = "300", .range = not_negative,
+    {.path = "checkpoint.wall_interval", .level = basic, .type = number, .unit = "s", .fallback = "300",
+     .range = not_negative,
      .help = "Wall time between checkpoints; 0: not by wall time.", .example = "\"10 min\""},
     {.path = "checkpoint.keep", .type = integer, .fallback = "2", .range = at_most_100000,
      .help = "So many of the last checkpoints are kept, and the last one known to be sound; 0: none are written.",
      .example = "5"},
 
     {.path = "output", .type = section, .help = "What a run writes, and how often."},
-    {.path = "output.frame_interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
+    {.path = "output.frame_interval", .level = basic, .type = number, .unit = "s", .fallback = "0",
+     .range = not_negative,
      .help = "Simulated time between frames for ParaView; 0: the last state only.", .example = "\"1 us\""},
-    {.path = "output.history_interval", .type = number, .unit = "s", .fallback = "auto", .range = positive,
+    {.path = "output.history_interval", .level = basic, .type = number, .unit = "s", .fallback = "auto",
+     .range = positive,
      .word = "auto",
      .help = "Simulated time between lines of the history. auto: 500 lines a run, but no more than one in 20 steps.",
      .example = "\"100 ns\""},
@@ -79,7 +83,7 @@ inline constexpr auto run_keys = std::to_array<Key>({
     {.path = "output.joints", .type = boolean, .fallback = "true", .help = "Joints in frames.", .example = "false"},
     {.path = "output.contacts", .type = boolean, .fallback = "true", .help = "Contact points in frames.",
      .example = "false"},
-    {.path = "output.gauges", .type = text_list, .fallback = "[]",
+    {.path = "output.gauges", .level = basic, .type = text_list, .fallback = "[]",
      .help = "Groups, or bodies as \"body 3\" (frames show their numbers), of which the history records reaction, "
              "contact force, displacement, velocity, centre of mass, momentum, spin, resultant force and torque. Means "
              "are weighted by mass. The reaction is the force of the constraints on the group, what accelerates the "
@@ -89,7 +93,7 @@ inline constexpr auto run_keys = std::to_array<Key>({
     {.path = "insitu", .type = section,
      .help = "Pictures, extracts and live views that are made while the run goes on, by ParaView Catalyst "
              "(catalyst/README.md)."},
-    {.path = "insitu.run", .type = text_list, .fallback = "[]",
+    {.path = "insitu.run", .level = basic, .type = text_list, .fallback = "[]",
      .help = "Pipelines that run up to 50 times over the simulated time, at even distances: names as in "
              "insitu.pipeline.name, or scripts. Those with triggers or parameters of their own are "
              "[[insitu.pipeline]].",
@@ -203,23 +207,27 @@ inline constexpr auto run_keys = std::to_array<Key>({
     {.path = "<function>", .type = notation,
      .help = "A function of time is a quantity, or a table of the keys below, which add up. Time counts from the start "
              "of the run."},
-    {.path = "<function>.constant", .type = number, .unit = "*", .fallback = "0", .help = "Value at all times.",
+    {.path = "<function>.constant", .level = basic, .type = number, .unit = "*", .fallback = "0",
+     .help = "Value at all times.",
      .example = "\"1 MPa\""},
-    {.path = "<function>.linear", .type = number, .unit = "*/s", .fallback = "0",
+    {.path = "<function>.linear", .level = basic, .type = number, .unit = "*/s", .fallback = "0",
      .help = "Growth a second, from 0 at time 0.", .example = "\"20 GPa/s\""},
-    {.path = "<function>.table", .type = points, .unit = "*",
+    {.path = "<function>.table", .level = basic, .type = points, .unit = "*",
      .help = "Points [time, value], times increasing; straight between them, constant before the first and after the "
              "last.", .example = "[[0, 0], [\"1 ms\", \"1 mm\"]]"},
 
     {.path = "<function>.ramp[]", .type = section_list,
      .help = "From one value to another in a straight line, constant before and after. One table, or a list of them."},
-    {.path = "<function>.ramp[].from", .type = number, .unit = "*", .fallback = "0", .help = "Value before.",
+    {.path = "<function>.ramp[].from", .level = basic, .type = number, .unit = "*", .fallback = "0",
+     .help = "Value before.",
      .example = "0"},
-    {.path = "<function>.ramp[].to", .type = number, .unit = "*", .required = true, .help = "Value after.",
+    {.path = "<function>.ramp[].to", .level = basic, .type = number, .unit = "*", .required = true,
+     .help = "Value after.",
      .example = "\"-9.81 m/s2\""},
-    {.path = "<function>.ramp[].start", .type = number, .unit = "s", .fallback = "0",
+    {.path = "<function>.ramp[].start", .level = basic, .type = number, .unit = "s", .fallback = "0",
      .help = "Time at which it starts.", .example = "0"},
-    {.path = "<function>.ramp[].end", .type = number, .unit = "s", .required = true, .help = "Time at which it ends.",
+    {.path = "<function>.ramp[].end", .level = basic, .type = number, .unit = "s", .required = true,
+     .help = "Time at which it ends.",
      .example = "\"2.4 s\""},
 
     {.path = "<function>.csv[]", .type = section_list,
@@ -227,12 +235,13 @@ inline constexpr auto run_keys = std::to_array<Key>({
              "last; at most 100000 lines and 64 MiB. Columns are apart by semicolons, tabs, commas or blanks; numbers "
              "have decimal points; a header is optional; lines that begin with #, % or ! are left out. The case in the "
              "run folder holds the points: a resumed run does not need the file. One table, or a list of them."},
-    {.path = "<function>.csv[].file", .type = path, .required = true, .help = "The file, relative to the case file.",
+    {.path = "<function>.csv[].file", .level = basic, .type = path, .required = true,
+     .help = "The file, relative to the case file.",
      .example = "\"shake.csv\""},
-    {.path = "<function>.csv[].time", .type = column, .fallback = "1",
+    {.path = "<function>.csv[].time", .level = basic, .type = column, .fallback = "1",
      .help = "Column of the times, by its name in the header (without the unit) or by its number. Times increase.",
      .example = "\"t\""},
-    {.path = "<function>.csv[].value", .type = column, .fallback = "2",
+    {.path = "<function>.csv[].value", .level = basic, .type = column, .fallback = "2",
      .help = "Column of the values, by its name or number.", .example = "\"a_x\""},
     {.path = "<function>.csv[].time_unit", .type = text, .fallback = "\"\"",
      .help = "Unit of the times. Empty: that of the header, as in \"t [ms]\" or \"t (ms)\", or s.",

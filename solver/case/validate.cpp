@@ -260,8 +260,6 @@ class Validator {
       if (contact.groups[0].empty()) continue;
       for (const std::string& group : contact.groups)
         if (group != every_group) needs_material(contact.origin, "between", group);
-      if (contact.interaction == Interaction::contact && contact.penalty == 0)
-        problem(contact.origin, "penalty", "is missing", "a penalty > 0 in Pa, or interaction = \"none\"");
       if (contact.points_on == PointsOn::first && contact.groups[0] == contact.groups[1])
         problem(contact.origin, "points_on", "\"first\" needs to know which group comes first",
                 "two different groups in `between`", words(contact.groups));

@@ -120,8 +120,9 @@ void define_command_line(CLI::App& app, Arguments& a) {
   define_report(app, a);
 
   CLI::App* explain =
-      app.add_subcommand("explain", "What a key of the case file means: unit, default, range; all keys without one");
+      app.add_subcommand("explain", "What a key of the case file means: unit, default, range; without one, the keys that most cases need");
   explain->add_option("key", a.key, "such as material.young, the name of a section, or a word such as notch");
+  explain->add_flag("--all", a.explain_all, "every key, also those for experts");
 
   CLI::App* schema = app.add_subcommand("schema", "The table of all keys of a case file, a line a key");
   schema->add_flag("--json", a.schema_json, "as JSON, with units, defaults, ranges, choices and help");

@@ -19,6 +19,7 @@ struct Arguments {
   DiffCommand diff;
   ReportCommand report;
   std::string key;
+  bool explain_all = false;
   bool schema_json = false;
   std::string progress = "auto";
 };

@@ -109,7 +109,7 @@ struct ReportCommand {
 };
 int report_command(const ReportCommand& asked);
 
-int explain_command(const std::string& key);
+int explain_command(const std::string& key, bool all);
 
 /// The table of all keys: a line a key, or JSON.
 int schema_command(bool json);

@@ -5,8 +5,8 @@
 
 namespace breccia {
 
-int explain_command(const std::string& key) {
-  print_lines((key.empty() ? case_::explain() : case_::explain(key)) + "\n");
+int explain_command(const std::string& key, bool all) {
+  print_lines((key.empty() ? case_::explain(all) : case_::explain(key, all)) + "\n");
   return 0;
 }
 

@@ -211,6 +211,7 @@ std::string schema_json() {
   Json keys = Json::array();
   for (const case_::Key& key : case_::schema()) {
     Json row{{"path", key.path}, {"type", name_of(key.type)}};
+    row["level"] = case_::level_of(key) == case_::Level::basic ? "basic" : "expert";
     if (!key.is_section()) row["unit"] = key.unit;
     if (!key.fallback.empty()) row["default"] = key.fallback;
     row["required"] = key.required;

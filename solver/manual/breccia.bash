@@ -84,7 +84,7 @@ _breccia_keys() {
     elif [[ $line =~ ^\ {2}([a-z][a-z_0-9]*)\ {2,}[^\ ] ]]; then
       echo "${section:+$section.}${BASH_REMATCH[1]}"
     fi
-  done < <(_breccia_ask explain)
+  done < <(_breccia_ask explain --all)
 }
 
 # Keys as --set takes them, each with its "=": an entry of a list is the one that was typed (material.glass, material[2]), else [0].

@@ -134,7 +134,8 @@ ContactLaw contact_law(const case_::Contact& entry, const SharedMaterial& pair) 
   ContactLaw law;
   law.plateau = entry.plateau > 0 ? entry.plateau : kInfinity;
   law.exponent = entry.unloading_exponent;
-  law.penalty = std::min(entry.penalty, largest_penalty(law.plateau, law.exponent));
+  const double penalty = entry.penalty_factor > 0 ? entry.penalty_factor * pair.young : entry.penalty;
+  law.penalty = std::min(penalty, largest_penalty(law.plateau, law.exponent));
   law.friction = entry.friction;
   law.tangential_ratio = entry.tangential_ratio;
   law.damping = 2 * entry.damping_ratio * std::sqrt(law.penalty * pair.density);

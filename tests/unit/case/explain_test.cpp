@@ -37,7 +37,7 @@ std::vector<std::string> parts(std::string_view list) {
 }
 
 TEST(Explain, TheOverviewHasALineForEveryKeyAndSection) {
-  const std::string text = explain();
+  const std::string text = explain(true);
   for (const Key& key : schema()) {
     if (key.is_section()) continue;
     EXPECT_THAT(text, HasSubstr("\n  " + std::string(key.name()) + " ")) << key.path;
@@ -45,6 +45,27 @@ TEST(Explain, TheOverviewHasALineForEveryKeyAndSection) {
   for (const char* header :
        {"\n[mesh]\n", "\n[[material]]\n", "\n[[stage.constraint]]\n", "\nfunction\n", "\nfunction.ramp\n"})
     EXPECT_THAT(text, HasSubstr(header));
+}
+
+TEST(Explain, KeysForExpertsComeByNameUnlessAllAreWanted) {
+  const std::string basic = explain(false), mesh = explain("mesh");
+  EXPECT_THAT(basic,
+              AllOf(HasSubstr("\n  young "), Not(HasSubstr("\n  viscosity ")), Not(HasSubstr("\n[detection]")),
+                    HasSubstr("expert (--all): viscosity, "), HasSubstr("Sections for experts: [contact_points], ")));
+  EXPECT_THAT(mesh, AllOf(HasSubstr("\n  file "), Not(HasSubstr("\n  time_limit ")), HasSubstr("time_limit")));
+  EXPECT_THAT(explain("mesh", true), AllOf(HasSubstr("\n  time_limit "), Not(HasSubstr("expert (--all)"))));
+  EXPECT_THAT(explain("detection"), HasSubstr("\n  buffer ")) << "a section for experts shows its keys";
+  EXPECT_THAT(explain("mesh.time_limit"), testing::ContainsRegex("\n  level +expert\n"));
+  EXPECT_THAT(explain("mesh.file"), Not(HasSubstr("level")));
+}
+
+TEST(Explain, MostCasesNeedAThirdOfTheKeys) {
+  const auto keys = std::count_if(schema().begin(), schema().end(), [](const Key& key) { return !key.is_section(); });
+  const auto basic =
+      std::count_if(schema().begin(), schema().end(), [](const Key& key) { return key.level == Level::basic; });
+  EXPECT_LE(3 * basic, keys + 30) << basic << " of " << keys;
+  for (const Key& key : schema())
+    EXPECT_FALSE(key.is_section() && key.level == Level::basic) << key.path << ": a section has the level of its keys";
 }
 
 TEST(Explain, AKeyIsFoundByThePathThatSetTakes) {
