@@ -76,6 +76,7 @@ int dispatch(const std::string& command, Arguments& a, const Communicator& world
   if (command == "control") return control_command(a.control);
   if (command == "live") return live_command(a.live);
   if (command == "insitu info") return insitu_info_command();
+  if (command == "guide") return guide_command(a.guide);
   if (command == "schema") return schema_command(a.schema_json);
   return explain_command(a.key, a.explain_all);
 }

@@ -135,6 +135,7 @@ class MainWindow final : public QMainWindow {
 
   // main_window_file.cpp: the file of the case, and what is kept of edits
   /// Tells what cannot be kept, once and until it can. @param error  empty: it can
+  void open_guide();
   void tell_trouble(const QString& what, const QString& words, const QString& error);
   void remember_file();
   [[nodiscard]] bool save();

@@ -129,13 +129,15 @@ void MainWindow::make_actions() {
       tools, tr("Save p&icture..."), {}, [this] { save_picture(); }, false);
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   add(
-      help, tr("&Keys..."), QKeySequence::HelpContents, [this] { show_keys(*this); }, false);
+      help, tr("&Guide"), QKeySequence::HelpContents, [this] { open_guide(); }, false);
+  add(
+      help, tr("&Keys..."), QKeySequence("Ctrl+F1"), [this] { show_keys(*this); }, false);
   add(
       help, tr("&About Breccia"), {},
       [this] {
         QMessageBox::about(this, tr("Breccia"),
                            tr("<b>Breccia</b><br>Combined finite-discrete element simulation of solids that break.<br>"
-                              "<br>F1 lists the keys."));
+                              "<br>F1 opens the guide, Ctrl+F1 lists the keys."));
       },
       false);
   for (QAction* action : findChildren<QAction*>()) action->setProperty("tip", action->toolTip());

@@ -146,19 +146,19 @@ std::vector<std::string> keys_that_say(const std::string& word) {
 
 }  // namespace
 
-std::string explain(bool all) {
+std::string explain_all(bool experts) {
   std::string out =
       "Keys of a case file (TOML): name, default, meaning [SI unit]. Numbers are SI; texts may carry a unit, "
       "\"26.6 GPa\".\n" +
       wrapped(units_help(), "") +
       "`breccia explain KEY` tells more about one, and what a word of the field "
       "is called here: `breccia explain notch`.\n\n";
-  out += lines_of(nullptr, all);
+  out += lines_of(nullptr, experts);
   std::vector<std::string> others;
   for (const Key& key : schema()) {
     if (!key.is_section()) continue;
-    if (all || level_of(key) == Level::basic)
-      out += "\n" + section_text(key, all);
+    if (experts || level_of(key) == Level::basic)
+      out += "\n" + section_text(key, experts);
     else
       others.push_back(header_of(key));
   }
@@ -167,12 +167,12 @@ std::string explain(bool all) {
   return out;
 }
 
-std::string explain(std::string_view key, bool all) {
+std::string explain(std::string_view key, bool experts) {
   const std::string wanted = plain_path(key);
   std::string by_name;
   for (const Key& row : schema()) {
-    if (plain_path(row.path) == wanted) return text_of(row, all);
-    if (row.name() == wanted) by_name += (by_name.empty() ? "" : "\n") + text_of(row, all);
+    if (plain_path(row.path) == wanted) return text_of(row, experts);
+    if (row.name() == wanted) by_name += (by_name.empty() ? "" : "\n") + text_of(row, experts);
   }
   if (!by_name.empty()) return by_name;
 
@@ -181,12 +181,12 @@ std::string explain(std::string_view key, bool all) {
   if (second != std::string::npos) {
     const std::string section = wanted.substr(0, first), rest = wanted.substr(second);
     for (const Key& row : schema())
-      if (row.path.starts_with(section + "[]") && plain_path(row.path) == section + rest) return text_of(row, all);
+      if (row.path.starts_with(section + "[]") && plain_path(row.path) == section + rest) return text_of(row, experts);
   }
 
   if (const Topic* topic = topic_of(key)) return topic_text(key, *topic);
   for (const Key& row : schema())
-    if (row.name() == as_name(key)) by_name += (by_name.empty() ? "" : "\n") + text_of(row, all);
+    if (row.name() == as_name(key)) by_name += (by_name.empty() ? "" : "\n") + text_of(row, experts);
   if (!by_name.empty()) return by_name;
 
   std::vector<std::string> paths;

@@ -119,8 +119,12 @@ void define_command_line(CLI::App& app, Arguments& a) {
 
   define_report(app, a);
 
-  CLI::App* explain =
-      app.add_subcommand("explain", "What a key of the case file means: unit, default, range; without one, the keys that most cases need");
+  CLI::App* guide = app.add_subcommand("guide", "Open the guide in the browser, at a topic");
+  guide->add_option("topic", a.guide.topic, "a section, a key, or words such as ranks; otherwise the search for them");
+  guide->add_flag("--address", a.guide.address_only, "print the address of the page, open nothing");
+
+  CLI::App* explain = app.add_subcommand(
+      "explain", "What a key of the case file means: unit, default, range; without one, the keys that most cases need");
   explain->add_option("key", a.key, "such as material.young, the name of a section, or a word such as notch");
   explain->add_flag("--all", a.explain_all, "every key, also those for experts");
 

@@ -20,6 +20,7 @@ struct Arguments {
   ReportCommand report;
   std::string key;
   bool explain_all = false;
+  GuideCommand guide;
   bool schema_json = false;
   std::string progress = "auto";
 };

@@ -109,6 +109,14 @@ struct ReportCommand {
 };
 int report_command(const ReportCommand& asked);
 
+struct GuideCommand {
+  std::string topic;          ///< a section, a key, or words of a page's name; empty: the first page
+  bool address_only = false;  ///< print the address, open nothing
+};
+/// Prints the address of a page of the guide and opens it in the browser, where there is a display.
+/// Throws OutputError where the guide is not installed.
+int guide_command(const GuideCommand& asked);
+
 int explain_command(const std::string& key, bool all);
 
 /// The table of all keys: a line a key, or JSON.

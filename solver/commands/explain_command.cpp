@@ -6,7 +6,7 @@
 namespace breccia {
 
 int explain_command(const std::string& key, bool all) {
-  print_lines((key.empty() ? case_::explain(all) : case_::explain(key, all)) + "\n");
+  print_lines((key.empty() ? case_::explain_all(all) : case_::explain(key, all)) + "\n");
   return 0;
 }
 

@@ -85,13 +85,6 @@ std::string launch(int ranks, const std::string& arguments, const std::string& e
          " '" BRECCIA_PROGRAM "' " + arguments;
 }
 
-Outcome outcome_of(const std::string& command) {
-  const Scratch scratch;
-  const std::string out = scratch.path("out").string(), err = scratch.path("err").string();
-  const int status = std::system((command + " > '" + out + "' 2> '" + err + "' < /dev/null").c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
-}
-
 /// @return  the shell, which `exec` lets become the program itself
 pid_t start(const std::string& command) {
   const pid_t process = fork();
@@ -103,6 +96,13 @@ pid_t start(const std::string& command) {
 }
 
 }  // namespace
+
+Outcome outcome_of(const std::string& command) {
+  const Scratch scratch;
+  const std::string out = scratch.path("out").string(), err = scratch.path("err").string();
+  const int status = std::system((command + " > '" + out + "' 2> '" + err + "' < /dev/null").c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
+}
 
 Outcome call(const std::string& arguments, const std::string& environment) {
   return outcome_of(environment + " '" BRECCIA_PROGRAM "' " + arguments);

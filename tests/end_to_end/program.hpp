@@ -14,6 +14,9 @@ struct Outcome {
   std::string out, err;
 };
 
+/// Runs a command of the shell.
+Outcome outcome_of(const std::string& command);
+
 /// Runs the built program. @param environment  "NAME=value ..." put before the command
 Outcome call(const std::string& arguments, const std::string& environment = "");
 

@@ -10,6 +10,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 #include <QTimer>
+#include <QToolButton>
 #include <QTreeWidget>
 #include <algorithm>
 #include <functional>
@@ -63,8 +64,15 @@ struct Desk {
     return found;
   }
 
+  /// Fields for experts are there, but not shown before their button is clicked.
+  void unfold(const QWidget* widget) {
+    auto* more = window->findChild<QToolButton*>("expert_keys");
+    if (more != nullptr && !more->isChecked() && !widget->isVisible()) QTest::mouseClick(more, Qt::LeftButton);
+  }
+
   void click(const QString& name) {
     auto* widget = find<QWidget>(name);
+    unfold(widget);
     QTest::mouseClick(widget, Qt::LeftButton);
   }
 
@@ -102,6 +110,7 @@ struct Desk {
       QTest::qWait(20);
     }
     auto* widget = find<QWidget>(field);
+    unfold(widget);
     widget->setFocus();
     QTest::keyClick(widget, Qt::Key_A, Qt::ControlModifier);
     QTest::keyClick(widget, Qt::Key_Delete);

@@ -267,7 +267,7 @@ TEST(View, EveryChosenCurveIsDrawnOfBothRunsThatAreCompared) {
 TEST(View, AKeyListsTheKeys) {
   Desk desk;
   desk.window->open_path(written_case(desk.scratch, block_case(2, "1 ms")));
-  QTest::keyClick(desk.window.get(), Qt::Key_F1);
+  QTest::keyClick(desk.window.get(), Qt::Key_F1, Qt::ControlModifier);
   auto* table = desk.find<QTableWidget>("keys_table");
   QStringList listed;
   for (int row = 0; row < table->rowCount(); ++row) listed << table->item(row, 0)->text();
