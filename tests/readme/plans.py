@@ -183,6 +183,14 @@ def plan_cmake(text, words, _):
     return Plan(text, "presets", options=presets)
 
 
+def plan_python(text, words, _):
+    """A script of the repository: that it is there and is Python."""
+    script = next((word for word in words[1:] if word.endswith(".py")), "")
+    if not script:
+        raise Problem(f"{NO_RULE} python3 without a script")
+    return Plan(f"python3 -c 'import ast, sys; ast.parse(open(sys.argv[1], encoding=\"utf-8\").read())' {script}", "typed")
+
+
 def plan_packages(text, words, _):
     files = [word for word in words if "/" in word]
     if files:
@@ -200,6 +208,7 @@ RULES = [
     (("ctest",), plan_ctest),
     (("cmake",), plan_cmake),
     (("apt-get",), plan_packages),
+    (("python3",), plan_python),
 ]
 
 
