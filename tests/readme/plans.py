@@ -27,6 +27,7 @@ VALUES = {"ON", "OFF"}  # capitals that stand for themselves
 # A word in capitals that is neither an option (-L) nor a unit ("5 N"), an ellipsis, or <something>.
 PLACEHOLDER = re.compile(r"(?<![\w.-])(?<!\d )[A-Z][A-Z_]*(?!\w)|\.\.\.|…|<[^>]*>")
 
+TEST_PROGRAM = "build/release/tests/unit/base/test_base"  # of tests/README.md
 NO_RULE = "no rule of tests/readme/plans.py says how to try"
 STEPS = "--set time.max_steps=10"
 NEEDS_CASE = {"run", "check", "live", "race"}
@@ -177,6 +178,8 @@ def plan_ctest(text, words, _):
 
 def plan_cmake(text, words, _):
     """Presets are only looked up: the build is what is being tested."""
+    if {"--build", "--target"} <= set(words):
+        return Plan(text, "typed")  # by the stub, which builds nothing
     presets = tuple(value for option, value in zip(words, words[1:]) if option == "--preset")
     if not presets:
         raise Problem(f"{NO_RULE} cmake without --preset")
@@ -209,6 +212,7 @@ RULES = [
     (("cmake",), plan_cmake),
     (("apt-get",), plan_packages),
     (("python3",), plan_python),
+    ((TEST_PROGRAM,), lambda text, words, _: Plan(text, "typed")),
 ]
 
 
