@@ -1,4 +1,4 @@
-"""Work of a step in which the overlap begins: what central differences do and what the law stores."""
+"""Work of a step in which the overlap begins: by central differences, and the energy that the law stores."""
 from drawing import *
 
 d = Drawing(730, 300)
@@ -24,5 +24,5 @@ d.text((x, 70), "the law stores:  ½ k d^{2}", BLUE)
 d.text((x, 98), "error: ½ k d (D − d) ≤ k D^{2}/8, largest at d = D/2")
 d.text((x, 120), "lost where an overlap begins, gained where it ends")
 d.text((x, 160), "Each couple counts its error (gained) and\nchanges its normal force, half in this step and\nhalf in the next, so that the count returns to 0.", size=12)
-d.text((x, 225), "The change is at most half of the force and\nat most what such a step can have left over.", size=12)
+d.text((x, 225), "The change is at most half of the force and\nat most the largest error of such a step.", size=12)
 d.save(__file__)

@@ -2,7 +2,7 @@
 from drawing import *
 
 d = Drawing(700, 300)
-# (1) Beside an edge: the element that holds the point has only the side; its neighbour with the top takes over.
+# (1) Beside an edge: the element of the point has only the side; its neighbour with the top replaces it.
 x, y = 20, 70
 d.text((x, 24), "1  edge", bold=True)
 d.area([(x, y), (x + 170, y), (x + 170, y + 130), (x, y + 130)], PALE, GREY, 1)
@@ -12,7 +12,7 @@ d.dot((x + 166, y + 14), RED, 4)
 d.arrow((x + 166, y + 14), (x + 166, y - 24), RED, 1.8)
 d.text((x + 60, y + 30), "B: has the top", GREEN, 12)
 d.text((x + 118, y + 118), "A", ORANGE, 12)
-d.text((x, 222), "The point lies in A, which has only\nthe right side. B reaches to it within\nλ ≥ −0.01 and takes it over.", size=12)
+d.text((x, 222), "The point lies in A, which has only\nthe right side. B reaches to it within\nλ ≥ −0.01 and replaces A.", size=12)
 # (2) A side far away.
 x = 250
 d.text((x, 24), "2  far side", bold=True)

@@ -1,4 +1,4 @@
-"""Where energy goes in a run: put in, held, dissipated."""
+"""Where energy goes in a run: put in, stored, dissipated."""
 from drawing import *
 
 d = Drawing(740, 400)
@@ -14,9 +14,9 @@ d.text((10, 24), "put in", bold=True)
 node(10, 40, 180, "loads, gravity, constraints", GREEN, "external_work", 32)
 node(10, 90, 180, "energy at the start", GREEN, "first sample", 32)
 node(10, 140, 180, "change of the time step", GREEN, "step_change", 32)
-d.text((255, 24), "held", bold=True)
-held = (("kinetic", "kinetic"), ("elements", "elastic"), ("joints", "joint_elastic"), ("contact and its springs", "contact_stored"))
-for i, (text, column) in enumerate(held):
+d.text((255, 24), "stored", bold=True)
+stored = (("kinetic", "kinetic"), ("elements", "elastic"), ("joints", "joint_elastic"), ("contact and its springs", "contact_stored"))
+for i, (text, column) in enumerate(stored):
     node(255, 40 + 50 * i, 170, text, BLUE, column, 32)
 d.text((520, 24), "dissipated", bold=True)
 lost = (("fracture, mode I", "joint_mode_1"), ("fracture, mode II", "joint_mode_2"), ("friction in joints", "joint_friction"),
@@ -30,7 +30,7 @@ d.arrow((190, 156), (253, 90), GREEN, 1.4, dash="4 3")
 for i, (y, to) in enumerate(((106, (49, 260, 295)), (156, (84, 119)), (206, (154, 189)), (56, (225,)))):
     for t in to:
         d.arrow((425, y), (518, t), RED, 1.1, head=6)
-d.text((20, 342), "residual = energy at the start + external work + step change − held − dissipated", BLUE, 12)
-d.text((20, 364), "gain = held − energy at the start − external work", BLUE, 12)
+d.text((20, 342), "residual = energy at the start + external work + step change − stored − dissipated", BLUE, 12)
+d.text((20, 364), "gain = stored − energy at the start − external work", BLUE, 12)
 d.text((20, 386), "both as shares of the largest term", size=12)
 d.save(__file__)

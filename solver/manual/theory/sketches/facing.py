@@ -6,7 +6,7 @@ from drawing import *
 d = Drawing(680, 306)
 # Block that slides to the right on the floor; a point of the floor lies in its front, just beside the edge.
 d.area([(20, 190), (330, 190), (330, 236), (20, 236)], PALE, GREY)
-d.text((30, 252), "floor: its points look upwards", size=12)
+d.text((30, 252), "floor: its points face upwards", size=12)
 block = [(60, 80), (225, 80), (225, 196), (60, 196)]
 d.area(block, FILLS[BLUE], BLUE, 1.8, 0.85)
 d.text((75, 105), "block", BLUE, 13, bold=True)
