@@ -47,7 +47,7 @@ struct DomainSpec {
 /// for a slope of 1e-4 that parts elements in one plane), and lies where the weights of both sides are as the numbers
 /// of domains they get. Our own: a library's cuts depend on how elements are spread, and it needs MPI in a process that
 /// is alone. A little more weight on one side moves the cuts a little, so few elements change hands. O(elements log
-/// parts), six reductions of at most 2 kB a part and level.
+/// parts), seven reductions of at most 2 kB a part and level.
 /// @param weight  (elements) >= 0, relative cost
 /// Throws InputError as grid_of unless settled, and if there are fewer elements than domains.
 [[nodiscard]] std::vector<int> assign_domains(const Communicator& communicator, const DomainSpec& spec, int parts,

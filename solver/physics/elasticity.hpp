@@ -303,7 +303,8 @@ template <class T>
   return corner_forces(piola, inverse, volume);
 }
 
-/// Strain energy of one element, J. @pre p.law == neo_hookean; the other law has none, its work -f.v is integrated.
+/// Strain energy of one element, J. @pre p.law == neo_hookean: green_st_venant has none, laws with memory have their
+/// own (physics/material/bulk_law.hpp).
 template <class T>
 [[nodiscard]] inline T element_energy(const Corners<T>& x, const Tensor<T>& inverse, const T& volume,
                                       const ElasticParams& p) {

@@ -21,7 +21,7 @@ namespace breccia {
 /// v_(n-1/2)) . v_(n+1/2) / 2 more: what holds from t_n on under the new step. With it a change of the step by D moves
 /// the energy of free vibrations by -D/(4 kick) sum of m |v_(n+1/2) - v_(n-1/2)|^2 and no more: what central
 /// differences conserve depends on the step, for a vibration of frequency omega as 1 - (omega dt / 2)^2 at the same
-/// amplitude. This is the scheme's own, and stands in the residual of the budget.
+/// amplitude. The budget has a term of its own for it (step_change_energy).
 /// @param change  s = (before - dt)/(before + dt), 0 where the step stays the same (physics/kick.hpp)
 [[nodiscard]] ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before,
                                       const double* velocity_after, double change = 0);

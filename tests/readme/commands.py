@@ -43,7 +43,7 @@ def parts(markdown):
         start, lines = following, []
 
     for number, line in enumerate(markdown.split("\n"), 1):
-        fence = re.fullmatch(r"\s*```\s*(\w*)\s*", line)
+        fence = re.fullmatch(r"\s*```\s*(\{?\w*\}?)\s*", line)
         if fence:
             finish(number + 1)
             language = None if language is not None else fence.group(1)

@@ -27,6 +27,7 @@ VALUES = {"ON", "OFF"}  # capitals that stand for themselves
 # A word in capitals that is neither an option (-L) nor a unit ("5 N"), an ellipsis, or <something>.
 PLACEHOLDER = re.compile(r"(?<![\w.-])(?<!\d )[A-Z][A-Z_]*(?!\w)|\.\.\.|…|<[^>]*>")
 
+TEST_PROGRAM = "build/release/tests/unit/base/test_base"  # of tests/README.md
 NO_RULE = "no rule of tests/readme/plans.py says how to try"
 STEPS = "--set time.max_steps=10"
 NEEDS_CASE = {"run", "check", "live", "race"}
@@ -177,10 +178,20 @@ def plan_ctest(text, words, _):
 
 def plan_cmake(text, words, _):
     """Presets are only looked up: the build is what is being tested."""
+    if {"--build", "--target"} <= set(words):
+        return Plan(text, "typed")  # by the stub, which builds nothing
     presets = tuple(value for option, value in zip(words, words[1:]) if option == "--preset")
     if not presets:
         raise Problem(f"{NO_RULE} cmake without --preset")
     return Plan(text, "presets", options=presets)
+
+
+def plan_python(text, words, _):
+    """A script of the repository: that it is there and is Python."""
+    script = next((word for word in words[1:] if word.endswith(".py")), "")
+    if not script:
+        raise Problem(f"{NO_RULE} python3 without a script")
+    return Plan(f"python3 -c 'import ast, sys; ast.parse(open(sys.argv[1], encoding=\"utf-8\").read())' {script}", "typed")
 
 
 def plan_packages(text, words, _):
@@ -200,6 +211,8 @@ RULES = [
     (("ctest",), plan_ctest),
     (("cmake",), plan_cmake),
     (("apt-get",), plan_packages),
+    (("python3",), plan_python),
+    ((TEST_PROGRAM,), lambda text, words, _: Plan(text, "typed")),
 ]
 
 

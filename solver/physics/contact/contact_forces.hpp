@@ -37,10 +37,10 @@ struct ContactWork {
 /// mesh vertex or if fracture has just made it, else with 0, so that freeing a face makes no force.
 /// A new couple that is deeper at once than its point has moved inwards takes the excess as its offset.
 /// Sides: in a body of ordinary finite elements g is the least of those sums (contact_field.hpp) whose side looks
-/// towards the face of the point, the normals at more than 96 degrees: the corner of a block presses on the top of
-/// another up to its edge. A point just beside an edge in an element that has no such side belongs to the nearest
-/// neighbour that has one, if it reaches so far by a hundredth of its height. Where there is none, no force begins: the
-/// offset grows with g.
+/// towards the face of the point, the normals at more than 96 degrees, or, where there is none, at more than 90.6
+/// (Facing in overlap.hpp): the corner of a block presses on the top of another up to its edge. A point just beside an
+/// edge in an element that has no such side belongs to the nearest neighbour that has one, if it reaches so far by a
+/// hundredth of its height. Where there is none, no force begins: the offset grows with g.
 /// Work and energy: each couple counts the work that its forces have done, as central differences do it, beyond what it
 /// took, holds and dissipates, but for what the turn of a surface makes of a step: along one function of an element the
 /// law has a potential, and such errors cancel. A step in which the overlap begins or ends, or follows a curved law,

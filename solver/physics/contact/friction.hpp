@@ -55,7 +55,7 @@ template <class Vector, class Real = typename Vector::Scalar>
 template <class Real>
 struct DelayedForceOf {
   Real force = 0.0;    ///< N
-  Real age = 0.0;      ///< s, of the overlap, up to kSettledAge; counts down while there is none
+  Real age = 0.0;      ///< s, of the overlap, up to kSettledAge longest delays; counts down while there is none
   Real halfway = 0.0;  ///< N, late by half of the delay: what `force` follows
 };
 using DelayedForce = DelayedForceOf<double>;
