@@ -112,7 +112,7 @@ std::string page_of(const fs::path& root, const std::string& topic) {
 fs::path guide_folder() {
   std::error_code error;
   const fs::path above = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
-  const fs::path installed = above / "share" / "doc" / "breccia" / "guide", built = above / "manual" / "html";
+  const fs::path installed = above / "share/doc/breccia/guide", built = above / "solver/manual/guide/html";
   for (const fs::path& folder : {built, installed})
     if (fs::exists(folder / "index.html", error)) return folder;
   throw OutputError(Problem{installed.string(), 0, "", "the guide is not installed as HTML",
