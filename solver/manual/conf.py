@@ -1,0 +1,81 @@
+"""Sphinx configuration of the manual. build_guide.py copies it with the pages into the build folder and starts Sphinx there.
+
+Nothing is loaded from a network: formulas are drawn by KaTeX, whose files (Debian: libjs-katex) are copied into _static.
+"""
+
+import os
+import re
+import shutil
+from pathlib import Path
+
+from docutils.nodes import SkipNode
+
+project = "Breccia"
+author = "The Breccia project"
+copyright = "The Breccia project"  # noqa: A001, the name is Sphinx's
+version = release = os.environ.get("BRECCIA_VERSION", "")
+language = "en"
+root_doc = "index"
+extensions = ["myst_parser"]
+source_suffix = {".md": "markdown"}
+exclude_patterns = ["_files"]
+
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 5
+myst_update_mathjax = False
+suppress_warnings = ["myst.header"]  # pages that begin below the first level
+
+html_theme = "furo"
+html_title = f"Breccia {version}".strip()
+html_static_path = ["_static"]
+html_css_files = ["katex.min.css", "manual.css"]
+html_js_files = ["katex.min.js", "formulas.js"]
+html_math_renderer = "katex"
+html_copy_source = False
+html_show_sphinx = False
+pygments_style = "default"
+highlight_language = "none"
+
+KATEX = [Path(folder) for folder in (os.environ.get("BRECCIA_KATEX", ""), "/usr/share/javascript/katex", "/usr/share/nodejs/katex/dist") if folder]
+CSS = "table img { max-width: 100%; } .katex { font-size: 1.08em; }\n"
+JS = """document.addEventListener("DOMContentLoaded", function () {
+  for (const formula of document.querySelectorAll("span.math, div.math")) {
+    katex.render(formula.textContent, formula, { displayMode: formula.tagName === "DIV", throwOnError: false });
+  }
+});
+"""
+
+
+def visit_inline(self, node):
+    self.body.append(self.starttag(node, "span", "", CLASS="math notranslate nohighlight"))
+    self.body.append(self.encode(node.astext()) + "</span>")
+    raise SkipNode
+
+
+def visit_display(self, node):
+    self.body.append(self.starttag(node, "div", CLASS="math notranslate nohighlight"))
+    self.body.append(self.encode(node.astext()) + "</div>\n")
+    raise SkipNode
+
+
+def copy_katex(static):
+    """KaTeX, its style with the fonts that every browser of today reads, and the script that draws formulas."""
+    source = next((folder for folder in KATEX if (folder / "katex.min.js").exists()), None)
+    if source is None:
+        raise RuntimeError("katex.min.js not found: install libjs-katex, or name its folder in BRECCIA_KATEX")
+    (static / "fonts").mkdir(parents=True, exist_ok=True)
+    shutil.copy(source / "katex.min.js", static)
+    style = (source / "katex.min.css").read_text(encoding="utf-8")
+    style = re.sub(r"""(url\([^)]*\.woff2['"]?\) format\(['"]woff2['"]\))(?:,\s*url\([^)]*\) format\([^)]*\))+""", r"\1", style)
+    (static / "katex.min.css").write_text(style, encoding="utf-8")
+    for font in (source / "fonts").glob("*.woff2"):
+        shutil.copy(font, static / "fonts")
+    (static / "manual.css").write_text(CSS, encoding="utf-8")
+    (static / "formulas.js").write_text(JS, encoding="utf-8")
+
+
+def setup(app):
+    copy_katex(Path(app.srcdir) / "_static")
+    app.add_html_math_renderer("katex", (visit_inline, None), (visit_display, None))
+
+
