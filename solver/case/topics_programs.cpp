@@ -52,7 +52,8 @@ constexpr auto kProgramTopics = std::to_array<Topic>({
      "mesh|output|insitu"},
     {"help|manual|documentation|tutorial|example|getting started|template|guide|bug|issue|faq|forum|changelog",
      "The guide, by tasks: solver/manual/guide, as HTML by `./run guide`; `man breccia` and `breccia COMMAND "
-     "--help`; `breccia explain` lists every key and `breccia explain KEY` one. meshes/ holds worked cases, and the desktop starts from them.",
+     "--help`; `breccia explain` lists every key and `breccia explain KEY` one. meshes/ holds worked cases, and "
+     "the desktop starts from them.",
      "title|mesh|material"},
     {"version|release|license|licence|copyright|citation|cite|reference|author|gpl|bsd|open source|price|"
      "commercial",

@@ -21,6 +21,8 @@ PLACEHOLDERS = {
     "runs/FOLDER": RUN_GOING_ON,
     "runs/RUN": RUN_GOING_ON,
     "RUN": RUN_GOING_ON,
+    "KEY": "joint.penalty",
+    "COMMAND": "check",
     "N": "2",
 }
 VALUES = {"ON", "OFF"}  # capitals that stand for themselves
@@ -32,7 +34,7 @@ STEPS = "--set time.max_steps=10"
 NEEDS_CASE = {"run", "check", "live", "race"}
 SUBCOMMANDS = NEEDS_CASE | {"mesh", "control", "insitu", "explain", "resume", "diff", "schema", "report"}
 # tests/bare runs these on a bare system; bench and detection take minutes. Here their names and options are looked up in `./run help`.
-LOOKED_UP = {"demo", "desktop", "test", "build", "install", "package", "bench", "detection"}
+LOOKED_UP = {"demo", "desktop", "test", "build", "install", "package", "guide", "bench", "detection"}
 
 
 class Problem(Exception):
@@ -163,6 +165,11 @@ def plan_picture(text, words, _):
     return Plan(text, "typed", ("paraview",), file=next((word for word in words if word.endswith(".png")), ""))
 
 
+def plan_viewer(text, words, _):
+    """paraview, a stub here: the run must have left the file that it opens."""
+    return Plan(text, "typed", file=next((word for word in words[1:] if "/" in word), ""))
+
+
 def plan_ranks(text, words, _):
     """mpiexec without a program: its options."""
     if any(not word.startswith("-") and not word.isdigit() for word in words[1:]):
@@ -196,6 +203,7 @@ RULES = [
     (("./run",), plan_script),
     (("breccia", PROGRAM), plan_program),
     (PICTURES, plan_picture),
+    (("paraview",), plan_viewer),
     (("mpiexec",), plan_ranks),
     (("ctest",), plan_ctest),
     (("cmake",), plan_cmake),

@@ -15,6 +15,7 @@ from plans import RUN_GOING_ON, Problem
 
 LINKED = ("meshes", "catalyst", "gui", "solver", "tests", "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md")
 PATIENCE = 240           # s for one command; the slowest takes ten on an idle machine, more under the sanitizers
+PYTHON = "/usr/bin/python3"  # the one for which Debian has h5py
 BLANK_PICTURE = 5000     # bytes; a picture of one colour takes less
 STUB = "#!/bin/sh\necho \"$0 $*\" >>'{record}'\n{work}\n"
 # Programs that must not do their work here. A test neither installs nor builds: what `./run` would build stands in the build folder, and
@@ -57,6 +58,9 @@ class Scratch:
             return "the in-situ adaptor is not built"
         if need == "lists":
             return "" if any(Path("/var/lib/apt/lists").glob("*Packages*")) else "apt has no lists of packages"
+        if need == "h5py":
+            lacking = subprocess.run([PYTHON, "-c", "import h5py"], capture_output=True, check=False).returncode
+            return "python3-h5py is not installed" if lacking else ""
         tools = {"adaptor": ("pvpython", "Xvfb"), "paraview": ("pvbatch", "xvfb-run")}[need]
         lacking = [tool for tool in tools if not shutil.which(tool)]
         return f"this machine lacks {', '.join(lacking)}" if lacking else ""
