@@ -74,8 +74,19 @@ def copy_katex(static):
     (static / "formulas.js").write_text(JS, encoding="utf-8")
 
 
+def make_local(app, exception):
+    """Debian's themes load some styles by the paths of a web server, /javascript/...: they are copied beside those that load them."""
+    for style in Path(app.outdir, "_static").rglob("*.css") if exception is None else ():
+        text = style.read_text(encoding="utf-8")
+        for path in set(re.findall(r"url\((/javascript/[^)]+)\)", text)):
+            shutil.copy(f"/usr/share{path}", style.parent)
+            text = text.replace(f"url({path})", f"url({Path(path).name})")
+            style.write_text(text, encoding="utf-8")
+
+
 def setup(app):
     copy_katex(Path(app.srcdir) / "_static")
+    app.connect("build-finished", make_local)
     app.add_html_math_renderer("katex", (visit_inline, None), (visit_display, None))
 
 

@@ -133,6 +133,8 @@ def plan_program(text, words, own):
         lap = "" if {"--steps", "--time"} & set(words) else " --steps 5"
         return Plan(text + lap + ("" if "--algorithms" in words else " --algorithms ms,sorted_grid --buffers 1"), "typed")
     if sub == "insitu":
+        if arguments == ["replay"] and len(words) == 3:
+            return look_up_program(words)
         if arguments != ["info"]:
             raise Problem(f"{NO_RULE} a replay: on which recordings?")
         return Plan(text, "typed", ("adaptor",))

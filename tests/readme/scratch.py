@@ -89,6 +89,7 @@ class Scratch:
         """A run that goes on for as long as commands want to speak to it."""
         if self.going_on is not None and self.going_on.poll() is None:
             return
+        shutil.rmtree(self.root / RUN_GOING_ON, ignore_errors=True)  # its status would be taken for that of the new run
         arguments = [self.root / PROGRAM, "run", "meshes/block_wall/case.toml", "-f", "-o", RUN_GOING_ON, "--progress", "none",
                      "--set", "stage.impact.end=\"1 s\""]
         self.going_on = subprocess.Popen(arguments, cwd=self.root, env=self.environment, stdout=subprocess.DEVNULL, start_new_session=True)
