@@ -65,7 +65,8 @@ def faults_of_page(file, folder):
 def faults_of_style(file, folder):
     """Files that a style loads."""
     found = []
-    for target in re.findall(r"""(?:url\(\s*|@import\s+)['"]?([^'")\s;]+)""", file.read_text(encoding="utf-8")):
+    text = file.read_text(encoding="utf-8")
+    for target in re.findall(r"""url\(\s*['"]?([^'")\s]+)""", text) + re.findall(r"""@import\s+['"]([^'"]+)""", text):
         place = f"{file.relative_to(folder)}: {target}"
         if target.startswith(("data:", "#")):
             continue
@@ -110,8 +111,8 @@ def planted():
                 wrong.append(f"{text}: found {found}")
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "index.html").write_text("", encoding="utf-8")
-        Path(folder, "a.css").write_text("a{src:url(gone.woff2)} b{src:url('https://example.org/f.woff2')}", encoding="utf-8")
-        if len(faults(folder)) != 2:
+        Path(folder, "a.css").write_text("@import url(gone.css);a{src:url(gone.woff2)} b{src:url('https://example.org/f.woff2')}", encoding="utf-8")
+        if len(faults(folder)) != 3:
             wrong.append(f"style: found {faults(folder)}")
     return wrong
 
