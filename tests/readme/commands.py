@@ -9,7 +9,7 @@ from pathlib import Path
 
 PROGRAM = "build/release/solver/breccia"
 PICTURES = ("meshes/breccia-picture", "breccia-picture", "pvbatch", "xvfb-run")
-PROGRAMS = {"./run", "breccia", PROGRAM, "mpiexec", "ctest", "cmake", "apt-get", "sudo", "paraview", *PICTURES}
+PROGRAMS = {"./run", "breccia", PROGRAM, "mpiexec", "ctest", "cmake", "apt-get", "sudo", "paraview", "python3", *PICTURES}
 
 
 @dataclass

@@ -23,6 +23,7 @@ PLACEHOLDERS = {
     "RUN": RUN_GOING_ON,
     "KEY": "joint.penalty",
     "COMMAND": "check",
+    "FOLDER": "runs/folder",
     "N": "2",
 }
 VALUES = {"ON", "OFF"}  # capitals that stand for themselves
@@ -84,6 +85,8 @@ def plan_of(command, only_look_up=False):
     if re.search(r"[;|&]", re.sub(r"'[^']*'|\"[^\"]*\"", "", text)):
         raise Problem("several commands in a line: give each a line of its own")
     words = words_of(text)
+    if words and words[0].startswith("build/release/tests/"):  # a test program: its tests are only listed
+        return Plan(" ".join([words[0], "--gtest_list_tests", *map(shlex.quote, words[1:])]), "typed")
     rule = next((rule for programs, rule in RULES if words and words[0] in programs), None)
     if rule is None:
         raise Problem(f"{NO_RULE} this command")
@@ -91,6 +94,8 @@ def plan_of(command, only_look_up=False):
         return Plan(f"command -v {words[0]}", "typed", ("paraview",) if words[0] in PICTURES else ())
     if only_look_up and words[0] == "./run":
         return look_up_script(words)
+    if only_look_up and words[0] in (*PICTURES, "paraview"):
+        return Plan(f"command -v {words[0]}", "typed", ("paraview",))
     if only_look_up and Path(words[0]).name == "breccia":
         return look_up_program(words)
     return rule(text, words, text != command.text)
@@ -184,9 +189,18 @@ def plan_ctest(text, words, _):
     return Plan(f"{text} -N", "ctest", ("adaptor",) if "catalyst" in words else ())
 
 
+def plan_python(text, words, _):
+    """A script of the repository is there; those that pages name take minutes or have tests of their own."""
+    if len(words) < 2 or not re.match(r"(tests|solver|plugins)/.*\.py$", words[1]):
+        raise Problem(f"{NO_RULE} a Python script of the reader's")
+    return Plan(f"test -f {words[1]}", "typed")
+
+
 def plan_cmake(text, words, _):
     """Presets are only looked up: the build is what is being tested."""
     presets = tuple(value for option, value in zip(words, words[1:]) if option == "--preset")
+    if words[1:3] == ["--build", "build/release"] and "--target" in words:
+        return Plan("test -d build/release", "typed")
     if not presets:
         raise Problem(f"{NO_RULE} cmake without --preset")
     return Plan(text, "presets", options=presets)
@@ -209,6 +223,7 @@ RULES = [
     (("mpiexec",), plan_ranks),
     (("ctest",), plan_ctest),
     (("cmake",), plan_cmake),
+    (("python3",), plan_python),
     (("apt-get",), plan_packages),
 ]
 
