@@ -1,6 +1,6 @@
 """Builds the HTML of the manual: guide, theory, cases, and the reference of all keys.
 
-    python3 build_guide.py PROGRAM FOLDER [--version VERSION] [--sphinx SPHINX_BUILD]
+    python3 build_guide.py PROGRAM FOLDER [--version VERSION] [--sphinx SPHINX_BUILD] [--katex FOLDER]
 
 The pages of the repository (PAGES) are copied into FOLDER/pages; the HTML is in FOLDER/html. In the copies links follow the pages; files of the
 repository that are no pages are copied beside them and become downloads; links to folders without a page become plain text; names of keys in
@@ -135,11 +135,14 @@ def main():
     parser.add_argument("folder", type=Path)
     parser.add_argument("--version", default="")
     parser.add_argument("--sphinx", default="sphinx-build")
+    parser.add_argument("--katex", default="", help="folder of katex.min.js")
     arguments = parser.parse_args()
     staged, html = arguments.folder / "pages", arguments.folder / "html"
     stage(arguments.program, staged)
-    sys.exit(subprocess.run([arguments.sphinx, "-q", "-W", "--keep-going", "-b", "html", "-d", arguments.folder / "doctrees", staged, html],
-                            env={**os.environ, "BRECCIA_VERSION": arguments.version}, check=False).returncode)
+    settings = {"html_title": f"Breccia {arguments.version}".strip(), "release": arguments.version, "katex_folder": arguments.katex}
+    defined = [word for name, value in settings.items() for word in ("-D", f"{name}={value}")]
+    sys.exit(subprocess.run([arguments.sphinx, "-q", "-W", "--keep-going", "-b", "html", "-d", arguments.folder / "doctrees", *defined,
+                             staged, html], check=False).returncode)
 
 
 if __name__ == "__main__":

@@ -3,17 +3,16 @@
 Nothing is loaded from a network: formulas are drawn by KaTeX, whose files (Debian: libjs-katex) are copied into _static.
 """
 
-import os
 import re
 import shutil
 from pathlib import Path
 
 from docutils.nodes import SkipNode
+from sphinx.errors import ConfigError
 
 project = "Breccia"
 author = "The Breccia project"
 copyright = "The Breccia project"  # noqa: A001, the name is Sphinx's
-version = release = os.environ.get("BRECCIA_VERSION", "")
 language = "en"
 root_doc = "index"
 extensions = ["myst_parser"]
@@ -26,7 +25,7 @@ myst_update_mathjax = False
 suppress_warnings = ["myst.header"]  # pages that begin below the first level
 
 html_theme = "furo"
-html_title = f"Breccia {version}".strip()
+html_title = "Breccia"  # build_guide.py adds the version
 html_static_path = ["_static"]
 html_css_files = ["katex.min.css", "manual.css"]
 html_js_files = ["katex.min.js", "formulas.js"]
@@ -36,7 +35,7 @@ html_show_sphinx = False
 pygments_style = "default"
 highlight_language = "none"
 
-KATEX = [Path(folder) for folder in (os.environ.get("BRECCIA_KATEX", ""), "/usr/share/javascript/katex", "/usr/share/nodejs/katex/dist") if folder]
+KATEX = ("/usr/share/javascript/katex", "/usr/share/nodejs/katex/dist")
 CSS = "table img { max-width: 100%; } .katex { font-size: 1.08em; }\n"
 JS = """document.addEventListener("DOMContentLoaded", function () {
   for (const formula of document.querySelectorAll("span.math, div.math")) {
@@ -58,11 +57,12 @@ def visit_display(self, node):
     raise SkipNode
 
 
-def copy_katex(static):
+def copy_katex(app, config):
     """KaTeX, its style with the fonts that every browser of today reads, and the script that draws formulas."""
-    source = next((folder for folder in KATEX if (folder / "katex.min.js").exists()), None)
+    static = Path(app.srcdir, "_static")
+    source = next((Path(folder) for folder in (config.katex_folder, *KATEX) if folder and Path(folder, "katex.min.js").exists()), None)
     if source is None:
-        raise RuntimeError("katex.min.js not found: install libjs-katex, or name its folder in BRECCIA_KATEX")
+        raise ConfigError("katex.min.js not found: install libjs-katex, or give its folder as katex_folder")
     (static / "fonts").mkdir(parents=True, exist_ok=True)
     shutil.copy(source / "katex.min.js", static)
     style = (source / "katex.min.css").read_text(encoding="utf-8")
@@ -85,7 +85,8 @@ def make_local(app, exception):
 
 
 def setup(app):
-    copy_katex(Path(app.srcdir) / "_static")
+    app.add_config_value("katex_folder", "", "html")
+    app.connect("config-inited", copy_katex)
     app.connect("build-finished", make_local)
     app.add_html_math_renderer("katex", (visit_inline, None), (visit_display, None))
 
