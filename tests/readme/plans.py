@@ -16,6 +16,7 @@ RUN_GOING_ON = "runs/going_on"
 PLACEHOLDERS = {
     "CASE.toml": "meshes/glass_impact/case_smoke.toml",
     "CASE": "meshes/glass_impact/case_smoke.toml",
+    "bar/case.toml": "meshes/notched_bar/case.toml",
     "case.toml": "meshes/block_wall/case.toml",
     "FILE": "meshes/glass_impact/geometry.geo",
     "runs/FOLDER": RUN_GOING_ON,
