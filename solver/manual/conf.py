@@ -36,7 +36,7 @@ pygments_style = "default"
 highlight_language = "none"
 
 KATEX = ("/usr/share/javascript/katex", "/usr/share/nodejs/katex/dist")
-CSS = ".content { width: min(62em, 100%); } table img { max-width: 100%; } .katex { font-size: 1.08em; }\n"
+CSS = ".content { width: min(53em, 100%); } table img { max-width: 100%; } .katex { font-size: 1.08em; }\n"
 JS = """document.addEventListener("DOMContentLoaded", function () {
   for (const formula of document.querySelectorAll("span.math, div.math")) {
     katex.render(formula.textContent, formula, { displayMode: formula.tagName === "DIV", throwOnError: false });
