@@ -51,13 +51,14 @@ constexpr auto kProgramTopics = std::to_array<Topic>({
      "starts and watches runs. It writes the same TOML and starts the same commands.",
      "mesh|output|insitu"},
     {"help|manual|documentation|tutorial|example|getting started|template|guide|bug|issue|faq|forum|changelog",
-     "`man breccia`, README.md and `breccia COMMAND --help`; `breccia explain` lists every key and `breccia "
-     "explain KEY` one. meshes/ holds worked cases, and the desktop starts from them.",
+     "The guide, by tasks: solver/manual/guide, as HTML by `./run guide`; `man breccia` and `breccia COMMAND "
+     "--help`; `breccia explain` lists every key and `breccia explain KEY` one. meshes/ holds worked cases, and "
+     "the desktop starts from them.",
      "title|mesh|material"},
     {"version|release|license|licence|copyright|citation|cite|reference|author|gpl|bsd|open source|price|"
      "commercial",
      "`breccia --version`. Breccia is under the BSD 3-Clause license, binaries that link gmsh under the GPL. "
-     "Cite the version and its repository; sources of the methods are listed at the end of README.md.",
+     "CITATION.cff has the citation; sources of the methods are in solver/manual/theory/references.md.",
      "title"},
     {"stop|pause|abort|cancel|kill|interrupt|ctrl c|signal|steering|steer|restart file|hang",
      "`breccia control RUN stop` (pause, resume, frame, checkpoint, extract) steers a run; Ctrl-C or SIGTERM "
@@ -66,8 +67,8 @@ constexpr auto kProgramTopics = std::to_array<Topic>({
     {"security|sandbox|untrusted|trust|hash|reproducible|reproducibility|determinism|deterministic|provenance|"
      "verification|validation|accuracy|benchmark",
      "Results are the same bits on any number of ranks; provenance.json has hashes of all inputs. A mesh is "
-     "read by a confined process; [insitu] scripts run as you. README.md lists what has been compared with "
-     "theory and tests.",
+     "read by a confined process; [insitu] scripts run as you. Comparisons with theory "
+     "and tests are listed in README.md and with the cases, meshes/*/README.md.",
      "mesh.memory_limit|mesh.time_limit|time.residual_limit"},
     {"abaqus|ls dyna|lsdyna|dyna|ansys|autodyn|radioss|nastran|optistruct|pam crash|comsol|marc|inp|inp file|"
      "k file|bdf|cdb|med|unv|keyword file|other software|migration|convert|conversion",

@@ -10,7 +10,7 @@
 namespace breccia {
 
 /// What a step costs, for predictions. With its joints, on a core of an AMD EPYC; the slit plate of 442,368 elements
-/// (README.md).
+/// (tests/benchmark/README.md).
 inline constexpr double kSecondsAnElement = 70e-9;
 /// On a cloud machine, two cores of an AVX-512 Xeon: a message both ways at once took 0.3 us with 8 bytes, 12 us with 8
 /// kB, 49 us with 80 kB, 184 us with 800 kB: at most this and its bytes at this speed.

@@ -9,7 +9,7 @@ from pathlib import Path
 
 PROGRAM = "build/release/solver/breccia"
 PICTURES = ("meshes/breccia-picture", "breccia-picture", "pvbatch", "xvfb-run")
-PROGRAMS = {"./run", "breccia", PROGRAM, "mpiexec", "ctest", "cmake", "apt-get", "sudo", *PICTURES}
+PROGRAMS = {"./run", "breccia", PROGRAM, "mpiexec", "ctest", "cmake", "apt-get", "sudo", "paraview", "python3", *PICTURES}
 
 
 @dataclass
@@ -99,19 +99,46 @@ def unmarked_commands(markdown):
             for line, command in lines_of(start, text) if command.split(" ")[0] in PROGRAMS - {"breccia"}]
 
 
-def links_of(markdown):
-    """[(line, target)] of links and pictures that stay in the repository."""
+def targets_of(markdown):
+    """[(line, target, anchor)] of links and pictures that stay in the repository; no target: the page itself."""
     found = []
     for language, start, text in parts(markdown):
         if language is None:
             plain = re.sub(r"`[^`]*`", lambda span: re.sub(r"[^\n]", " ", span.group()), text)
             for link in re.finditer(r"""\]\(([^)\s]+)[^)]*\)|(?:src|href)="([^"]+)\"""", plain):
-                target = (link.group(1) or link.group(2)).split("#")[0]
-                if target and not re.match(r"\w+:", target):
-                    found.append((start + text.count("\n", 0, link.start()), target))
+                target, _, anchor = (link.group(1) or link.group(2)).partition("#")
+                if not re.match(r"\w+:", target):
+                    found.append((start + text.count("\n", 0, link.start()), target, anchor))
+    return found
+
+
+def links_of(markdown):
+    """[(line, target)] of links and pictures that lead to other files of the repository."""
+    return [(line, target) for line, target, _ in targets_of(markdown) if target]
+
+
+def anchors_of(markdown):
+    """What links to headings may name, as a code host makes it of the headings."""
+    found = set()
+    for language, _, text in parts(markdown):
+        for heading in re.findall(r"^#{1,6} +(.*?)[ #]*$", text, re.MULTILINE) if language is None else ():
+            words = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", heading).lower()
+            name = re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
+            number = next(n for n in range(len(found) + 1) if (f"{name}-{n}" if n else name) not in found)
+            found.add(f"{name}-{number}" if number else name)
     return found
 
 
 def broken_links(readme):
-    text = Path(readme).read_text(encoding="utf-8")
-    return [f"{readme}:{line}: no file {target}" for line, target in links_of(text) if not (Path(readme).parent / target).exists()]
+    """A line for each link without its file, or without its heading in a page."""
+    readme = Path(readme)
+    found = []
+    for line, target, anchor in targets_of(readme.read_text(encoding="utf-8")):
+        file = readme.parent / target if target else readme
+        if file.is_dir() and (file / "README.md").exists():
+            file = file / "README.md"  # which a code host shows below the folder
+        if not file.exists():
+            found.append(f"{readme}:{line}: no file {target}")
+        elif anchor and file.suffix == ".md" and anchor not in anchors_of(file.read_text(encoding="utf-8")):
+            found.append(f"{readme}:{line}: no heading #{anchor} in {target or readme.name}")
+    return found

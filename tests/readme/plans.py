@@ -16,11 +16,15 @@ RUN_GOING_ON = "runs/going_on"
 PLACEHOLDERS = {
     "CASE.toml": "meshes/glass_impact/case_smoke.toml",
     "CASE": "meshes/glass_impact/case_smoke.toml",
+    "bar/case.toml": "meshes/notched_bar/case.toml",
     "case.toml": "meshes/block_wall/case.toml",
     "FILE": "meshes/glass_impact/geometry.geo",
     "runs/FOLDER": RUN_GOING_ON,
     "runs/RUN": RUN_GOING_ON,
     "RUN": RUN_GOING_ON,
+    "KEY": "joint.penalty",
+    "COMMAND": "check",
+    "FOLDER": "runs/folder",
     "N": "2",
 }
 VALUES = {"ON", "OFF"}  # capitals that stand for themselves
@@ -33,7 +37,7 @@ STEPS = "--set time.max_steps=10"
 NEEDS_CASE = {"run", "check", "live", "race"}
 SUBCOMMANDS = NEEDS_CASE | {"mesh", "control", "insitu", "explain", "resume", "diff", "schema", "report"}
 # tests/bare runs these on a bare system; bench and detection take minutes. Here their names and options are looked up in `./run help`.
-LOOKED_UP = {"demo", "desktop", "test", "build", "install", "package", "bench", "detection"}
+LOOKED_UP = {"demo", "desktop", "test", "build", "install", "package", "guide", "bench", "detection"}
 
 
 class Problem(Exception):
@@ -83,6 +87,8 @@ def plan_of(command, only_look_up=False):
     if re.search(r"[;|&]", re.sub(r"'[^']*'|\"[^\"]*\"", "", text)):
         raise Problem("several commands in a line: give each a line of its own")
     words = words_of(text)
+    if words and words[0].startswith("build/release/tests/"):  # a test program: its tests are only listed
+        return Plan(" ".join([words[0], "--gtest_list_tests", *map(shlex.quote, words[1:])]), "typed")
     rule = next((rule for programs, rule in RULES if words and words[0] in programs), None)
     if rule is None:
         raise Problem(f"{NO_RULE} this command")
@@ -90,6 +96,8 @@ def plan_of(command, only_look_up=False):
         return Plan(f"command -v {words[0]}", "typed", ("paraview",) if words[0] in PICTURES else ())
     if only_look_up and words[0] == "./run":
         return look_up_script(words)
+    if only_look_up and words[0] in (*PICTURES, "paraview"):
+        return Plan(f"command -v {words[0]}", "typed", ("paraview",))
     if only_look_up and Path(words[0]).name == "breccia":
         return look_up_program(words)
     return rule(text, words, text != command.text)
@@ -132,6 +140,8 @@ def plan_program(text, words, own):
         lap = "" if {"--steps", "--time"} & set(words) else " --steps 5"
         return Plan(text + lap + ("" if "--algorithms" in words else " --algorithms ms,sorted_grid --buffers 1"), "typed")
     if sub == "insitu":
+        if arguments == ["replay"] and len(words) == 3:
+            return look_up_program(words)
         if arguments != ["info"]:
             raise Problem(f"{NO_RULE} a replay: on which recordings?")
         return Plan(text, "typed", ("adaptor",))
@@ -164,6 +174,11 @@ def plan_picture(text, words, _):
     return Plan(text, "typed", ("paraview",), file=next((word for word in words if word.endswith(".png")), ""))
 
 
+def plan_viewer(text, words, _):
+    """paraview, a stub here: the run must have left the file that it opens."""
+    return Plan(text, "typed", file=next((word for word in words[1:] if "/" in word), ""))
+
+
 def plan_ranks(text, words, _):
     """mpiexec without a program: its options."""
     if any(not word.startswith("-") and not word.isdigit() for word in words[1:]):
@@ -176,11 +191,20 @@ def plan_ctest(text, words, _):
     return Plan(f"{text} -N", "ctest", ("adaptor",) if "catalyst" in words else ())
 
 
+def plan_python(text, words, _):
+    """A script of the repository is there; those that pages name take minutes or have tests of their own."""
+    if len(words) < 2 or not re.match(r"(tests|solver|plugins)/.*\.py$", words[1]):
+        raise Problem(f"{NO_RULE} a Python script of the reader's")
+    return Plan(f"test -f {words[1]}", "typed")
+
+
 def plan_cmake(text, words, _):
     """Presets are only looked up: the build is what is being tested."""
     if {"--build", "--target"} <= set(words):
         return Plan(text, "typed")  # by the stub, which builds nothing
     presets = tuple(value for option, value in zip(words, words[1:]) if option == "--preset")
+    if words[1:3] == ["--build", "build/release"] and "--target" in words:
+        return Plan("test -d build/release", "typed")
     if not presets:
         raise Problem(f"{NO_RULE} cmake without --preset")
     return Plan(text, "presets", options=presets)
@@ -207,9 +231,11 @@ RULES = [
     (("./run",), plan_script),
     (("breccia", PROGRAM), plan_program),
     (PICTURES, plan_picture),
+    (("paraview",), plan_viewer),
     (("mpiexec",), plan_ranks),
     (("ctest",), plan_ctest),
     (("cmake",), plan_cmake),
+    (("python3",), plan_python),
     (("apt-get",), plan_packages),
     (("python3",), plan_python),
     ((TEST_PROGRAM,), lambda text, words, _: Plan(text, "typed")),

@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 import readme_test
-from commands import PROGRAM, Command, block_below, broken_links, commands_of, links_of, strip_comment, unmarked_commands
+from commands import PROGRAM, Command, anchors_of, block_below, broken_links, commands_of, links_of, strip_comment, unmarked_commands
 from plans import Problem, plan_of, substituted
 
 # Stands for the program: what it is asked for is in its first words.
@@ -106,6 +106,7 @@ class Planted(unittest.TestCase):
         self.assertEqual(len(found), 1)
         self.assertIn("no file meshes/b", found[0])
         self.assertIn("no file c.png", found[0])
+        self.assertIn("no heading #a in README.md", found[0])
         self.assertNotIn("example", found[0].partition("First list contains")[2])
 
     def test_a_command_in_a_block_without_a_mark_is_found(self):
@@ -142,6 +143,9 @@ class Extraction(unittest.TestCase):
 
     def test_links_in_code_do_not_count(self):
         self.assertEqual(links_of("`[a](b)` [c](d#e) [f](#g)\n[![h](i)](j)"), [(1, "d"), (2, "i"), (2, "j")])
+
+    def test_headings_are_named_as_a_code_host_names_them(self):
+        self.assertEqual(anchors_of("# A `b.c`, d_e\n## [F](g) h-i\n```\n# j\n```\n## K\n## K\n"), {"a-bc-d_e", "f-h-i", "k", "k-1"})
 
     def test_links_are_relative_to_the_readme(self):
         with tempfile.TemporaryDirectory() as folder:

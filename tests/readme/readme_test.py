@@ -14,11 +14,15 @@ import unittest
 from pathlib import Path
 
 from commands import block_below, blocks, broken_links, commands_of, unmarked_commands
-from plans import Plan, Problem, not_in_help, plan_of
-from scratch import Scratch
+from plans import RUN_GOING_ON, Plan, Problem, not_in_help, plan_of
+from scratch import PYTHON, Scratch
 
 COMPLAINT = re.compile(r"^(\S+: )?(error|warning: unknown)\b.*", re.IGNORECASE | re.MULTILINE)
-EXAMPLE, EXAMPLE_CASE = "## Writing a case", "meshes/block_wall/case.toml"
+# Page -> the heading above a case that stands there, and the file of that case.
+EXAMPLES = {
+    "README.md": ("## A first case", "meshes/notched_bar/case.toml"),
+    "solver/manual/guide/01-first-run.md": ("## A complete case", "meshes/block_wall/case.toml"),
+}
 
 
 def check_presets(scratch, plan):
@@ -33,7 +37,7 @@ def try_plan(scratch, plan):
     if plan.kind == "presets":
         check_presets(scratch, plan)
         return
-    if plan.kind == "control":
+    if plan.kind == "control" or (RUN_GOING_ON in plan.text and plan.kind == "typed"):
         scratch.start_run()
     code, printed = scratch.type(plan.text)
     scratch.end_run()
@@ -111,27 +115,47 @@ class OfReadme(unittest.TestCase):
         self.assertEqual(broken_links(self.repository / self.readme), [])
 
     def test_the_example_is_the_case(self):
-        self.assertEqual(block_below(self.markdown, EXAMPLE, "toml"), (self.repository / EXAMPLE_CASE).read_text(encoding="utf-8"))
+        heading, case = EXAMPLES[self.readme]
+        self.assertEqual(block_below(self.markdown, heading, "toml"), (self.repository / case).read_text(encoding="utf-8"))
 
-    def test_scripts_work_as_pipelines(self):
+    def test_scripts_work(self):
+        """Scripts of ParaView as pipelines of a run, others after the runs of the page, which they read."""
         scratch = self.scratch()
         for line, text in blocks(self.markdown, "python"):
             with self.subTest(f"{self.readme}:{line}"):
                 compile(text, f"{self.readme}:{line}", "exec")
                 (scratch.root / "script.py").write_text(text, encoding="utf-8")
-                wrong = tried(scratch, Plan("breccia run meshes/glass_impact/case_smoke.toml --insitu script.py -f -o runs/script "
-                                            "--set time.max_steps=40", "typed", ("adaptor",), "runs/script"))
-                if wrong:
-                    self.fail(wrong)
+                pipeline = Plan("breccia run meshes/glass_impact/case_smoke.toml --insitu script.py -f -o runs/script "
+                                "--set time.max_steps=40", "typed", ("adaptor",), "runs/script")
+                for plan in [pipeline] if "paraview" in text else [*self.runs(), Plan(f"{PYTHON} script.py", "typed", ("h5py",))]:
+                    wrong = tried(scratch, plan)
+                    if wrong:
+                        self.fail(wrong)
+
+    def runs(self):
+        """Plans of the runs in the blocks of the page."""
+        plans = [plan_of(command) for command in commands_of(self.markdown) if not command.inline]
+        return [plan for plan in plans if plan.run_folder and not plan.needs]
+
+    def test_scripts_of_the_shell_are_sound(self):
+        scratch = self.scratch()
+        for line, text in blocks(self.markdown, "bash"):
+            with self.subTest(f"{self.readme}:{line}"):
+                (scratch.root / "script.sh").write_text(text, encoding="utf-8")
+                code, printed = scratch.type("bash -n script.sh")
+                self.assertEqual((code, printed), (0, ""))
 
 
 def load(readme, only_look_up):
     """The tests of a README."""
     methods = ["test_commands_work", "test_commands_stand_in_blocks_marked_sh", "test_links_lead_to_files"]
-    if readme == "README.md":
+    markdown = (OfReadme.repository / readme).read_text(encoding="utf-8")
+    if readme in EXAMPLES:
         methods.append("test_the_example_is_the_case")
-    if blocks((OfReadme.repository / readme).read_text(encoding="utf-8"), "python"):
-        methods.append("test_scripts_work_as_pipelines")
+    if blocks(markdown, "python") and not only_look_up:
+        methods.append("test_scripts_work")
+    if blocks(markdown, "bash"):
+        methods.append("test_scripts_of_the_shell_are_sound")
     return [OfReadme(method, readme, only_look_up) for method in methods]
 
 

@@ -21,6 +21,7 @@ WRONG = {
     "install --wrong": "--wrong",
     "install one two": "two",
     "package now": "now",
+    "guide now": "now",
     "packages demo extra": "extra",
     "test --fuzz soon": "soon",
     "test --fuzz -3": "-3",

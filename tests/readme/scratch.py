@@ -15,6 +15,7 @@ from plans import RUN_GOING_ON, Problem
 
 LINKED = ("meshes", "catalyst", "gui", "solver", "tests", "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md")
 PATIENCE = 240           # s for one command; the slowest takes ten on an idle machine, more under the sanitizers
+PYTHON = "/usr/bin/python3"  # the one for which Debian has h5py
 BLANK_PICTURE = 5000     # bytes; a picture of one colour takes less
 STUB = "#!/bin/sh\necho \"$0 $*\" >>'{record}'\n{work}\n"
 # Programs that must not do their work here. A test neither installs nor builds: what `./run` would build stands in the build folder, and
@@ -57,6 +58,9 @@ class Scratch:
             return "the in-situ adaptor is not built"
         if need == "lists":
             return "" if any(Path("/var/lib/apt/lists").glob("*Packages*")) else "apt has no lists of packages"
+        if need == "h5py":
+            lacking = subprocess.run([PYTHON, "-c", "import h5py"], capture_output=True, check=False).returncode
+            return "python3-h5py is not installed" if lacking else ""
         tools = {"adaptor": ("pvpython", "Xvfb"), "paraview": ("pvbatch", "xvfb-run")}[need]
         lacking = [tool for tool in tools if not shutil.which(tool)]
         return f"this machine lacks {', '.join(lacking)}" if lacking else ""
@@ -85,6 +89,7 @@ class Scratch:
         """A run that goes on for as long as commands want to speak to it."""
         if self.going_on is not None and self.going_on.poll() is None:
             return
+        shutil.rmtree(self.root / RUN_GOING_ON, ignore_errors=True)  # its status would be taken for that of the new run
         arguments = [self.root / PROGRAM, "run", "meshes/block_wall/case.toml", "-f", "-o", RUN_GOING_ON, "--progress", "none",
                      "--set", "stage.impact.end=\"1 s\""]
         self.going_on = subprocess.Popen(arguments, cwd=self.root, env=self.environment, stdout=subprocess.DEVNULL, start_new_session=True)
