@@ -61,12 +61,6 @@ std::string line_of(const Key& key) {
   return columns + meaning.substr(columns.size());
 }
 
-/// What [start] makes of a key, where it cannot change.
-std::string start_text(const Key& key) {
-  const std::string_view why = fixed_by_state(key.path);
-  return why.empty() ? "" : "as in the run that it starts from: " + std::string(why);
-}
-
 /// The keys and sections of a section, "" for the top: those that any user needs first.
 std::string lines_of(const Key* section, bool all) {
   const std::string_view path = section != nullptr ? section->path : "";
@@ -85,7 +79,7 @@ std::string lines_of(const Key* section, bool all) {
 
 std::string section_text(const Key& section, bool all) {
   std::string out = header_of(section) + "\n" + wrapped(std::string(section.help), "  ");
-  if (!section.fixed_by_state.empty()) out += wrapped("With [start]: " + start_text(section) + ".", "  ");
+  if (!section.fixed_by_state.empty()) out += wrapped("With [start]: " + start_rule(section) + ".", "  ");
   return out + lines_of(&section, all);
 }
 
@@ -98,7 +92,7 @@ std::string key_text(const Key& key) {
   if (const std::size_t star = allowed.find(" in *"); star != std::string::npos)
     allowed.replace(star, 4 + key.unit.size(), " in " + unit_text(key));
   if (key.level == Level::expert) field("level", "expert");
-  field("start", start_text(key));
+  field("start", start_rule(key));
   field("default", default_text(key));
   field("unit", unit_text(key));
   field("choices", joined(key.choice_list()));

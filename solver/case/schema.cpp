@@ -126,6 +126,11 @@ const Key* find_key(std::string_view pattern) {
   return it == index.end() ? nullptr : it->second;
 }
 
+std::string start_rule(const Key& key) {
+  const std::string_view why = fixed_by_state(key.path);
+  return why.empty() ? "" : "as in the run that it starts from: " + std::string(why);
+}
+
 Level level_of(const Key& key) {
   if (!key.is_section()) return key.level;
   const auto below = [&](const Key& row) {

@@ -92,6 +92,9 @@ inline constexpr std::string_view may_change = "-";
 /// The level of a section is that of its keys and sections: basic where one of them is.
 [[nodiscard]] Level level_of(const Key& key);
 
+/// The same as a text: "as in the run that it starts from: " and why; empty: it can change.
+[[nodiscard]] std::string start_rule(const Key& key);
+
 /// All rows, sections before their keys, in the order of a case file.
 [[nodiscard]] std::span<const Key> schema();
 

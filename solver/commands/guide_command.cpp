@@ -88,11 +88,11 @@ std::string escaped(std::string_view text, std::string_view kept) {
   return out;
 }
 
-/// The heading of a key on the page of its section, to which its path without dots leads.
+/// The heading of a key on the page of its section, named by its path with hyphens.
 std::string reference_of(const case_::Key& key) {
   const std::string path = case_::plain_path(key.path);
   std::string anchor = path;
-  std::erase(anchor, '.');
+  std::replace_if(anchor.begin(), anchor.end(), [](char c) { return c == '.' || c == '_'; }, '-');
   return "reference/" + path.substr(0, path.find('.')) + ".html#" + anchor;
 }
 

@@ -224,6 +224,7 @@ std::string schema_json() {
     if (!key.choices.empty()) row["choices"] = key.choice_list();
     if (!key.word.empty()) row["word"] = key.word;
     row["help"] = key.help;
+    if (std::string rule = case_::start_rule(key); !rule.empty()) row["start"] = std::move(rule);
     if (!key.example.empty()) row["example"] = key.example;
     row["allowed"] = case_::allowed_text(key);
     keys.push_back(std::move(row));

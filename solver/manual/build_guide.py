@@ -114,7 +114,7 @@ def copy_new(source, target):
 def stage(program, folder):
     """Writes all pages into the folder, and removes those of before that are no more."""
     reference.write_pages(program, folder / "reference")
-    keys = {reference.plain(key["path"]) for key in reference.keys_of(program, False) if "." in key["path"]}
+    keys = {reference.plain(key["path"]) for key in reference.keys_of(program) if "." in key["path"]}
     all_pages = pages()
     written = set(folder.glob("reference/*.md"))
     for source, page in all_pages.items():

@@ -9,7 +9,6 @@ import json
 import re
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 FACTS = (("unit", "unit"), ("default", "default"), ("choices", "choices"), ("allowed", "allowed"), ("example", "example"),
@@ -25,21 +24,9 @@ def plain(path):
     return re.sub(r"\[\]|[<>]", "", path)
 
 
-def restart_rule(program, key):
-    """What a case with [start] may change of the key: the line `start` of `breccia explain KEY`, or ""."""
-    found = re.search(r"^  start +(.*(?:\n {6,}.*)*)", output_of(program, "explain", plain(key["path"])), re.MULTILINE)
-    return " ".join(found[1].split()) if found else ""
-
-
-def keys_of(program, with_rules=True):
-    """The table of keys. @param with_rules  also what a case with [start] may change, which takes a call a key where the table lacks it"""
-    keys = json.loads(output_of(program, "schema", "--json"))["keys"]
-    if with_rules and not any("start" in key for key in keys):
-        with ThreadPoolExecutor(4) as threads:
-            for key, rule in zip(keys, threads.map(lambda key: restart_rule(program, key), keys)):
-                if rule:
-                    key["start"] = rule
-    return keys
+def keys_of(program):
+    """The table of keys."""
+    return json.loads(output_of(program, "schema", "--json"))["keys"]
 
 
 def code(text):

@@ -40,7 +40,7 @@ TEST(Guide, ATopicLeadsToItsPage) {
         std::pair{"domains", "guide/07-ranks-and-clusters.html"},
         std::pair{"clusters", "guide/07-ranks-and-clusters.html"},
         std::pair{"Friction", "guide/04-contact-and-friction.html"}, std::pair{"energy", "theory/energy.html"},
-        std::pair{"disc", "cases/disc.html"}, std::pair{"material.young", "reference/material.html#materialyoung"},
+        std::pair{"disc", "cases/disc.html"}, std::pair{"material.young", "reference/material.html#material-young"},
         std::pair{"'time integration'", "search.html?q=time%20integration"}}) {
     const Outcome outcome = installed.run(topic);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -35,7 +35,7 @@ TEST_PROGRAM = "build/release/tests/unit/base/test_base"  # of tests/README.md
 NO_RULE = "no rule of tests/readme/plans.py says how to try"
 STEPS = "--set time.max_steps=10"
 NEEDS_CASE = {"run", "check", "live", "race"}
-SUBCOMMANDS = NEEDS_CASE | {"mesh", "control", "insitu", "explain", "resume", "diff", "schema", "report"}
+SUBCOMMANDS = NEEDS_CASE | {"mesh", "control", "insitu", "explain", "resume", "diff", "schema", "report", "guide"}
 # tests/bare runs these on a bare system; bench and detection take minutes. Here their names and options are looked up in `./run help`.
 LOOKED_UP = {"demo", "desktop", "test", "build", "install", "package", "guide", "bench", "detection"}
 
