@@ -25,6 +25,7 @@ PLACEHOLDERS = {
     "KEY": "joint.penalty",
     "COMMAND": "check",
     "FOLDER": "runs/folder",
+    "TOPIC": "contact",
     "N": "2",
 }
 VALUES = {"ON", "OFF"}  # capitals that stand for themselves
@@ -49,7 +50,7 @@ class Plan:
     """How a command is tried. Once tried: `text` has ended with 0, the files are there."""
     text: str                # what is typed
     kind: str                # typed, control, live, ctest, look_up, presets
-    needs: tuple = ()        # adaptor, paraview, lists (of apt)
+    needs: tuple = ()        # adaptor, paraview, guide, lists (of apt)
     run_folder: str = ""     # where summary.json must be, of a run that has ended well
     file: str = ""           # what it must leave
     section: str = ""        # sub-command of ./run whose part of the help counts
@@ -145,6 +146,8 @@ def plan_program(text, words, own):
         if arguments != ["info"]:
             raise Problem(f"{NO_RULE} a replay: on which recordings?")
         return Plan(text, "typed", ("adaptor",))
+    if sub == "guide":
+        return Plan(f"{text} --address", "typed", ("guide",))
     if sub == "resume":
         return look_up_program(words)  # tests/end_to_end goes on with runs
     return Plan(text, sub if sub in ("control", "live") else "typed")

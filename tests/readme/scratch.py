@@ -56,6 +56,8 @@ class Scratch:
         """Why a command with that need cannot be tried on this machine, or ""."""
         if need == "adaptor" and not (self.build / "catalyst/libbreccia_catalyst.so").exists():
             return "the in-situ adaptor is not built"
+        if need == "guide":
+            return "" if (self.build / "solver/manual/guide/html/index.html").exists() else "the manual is not built (BRECCIA_GUIDE)"
         if need == "lists":
             return "" if any(Path("/var/lib/apt/lists").glob("*Packages*")) else "apt has no lists of packages"
         if need == "h5py":
