@@ -86,8 +86,8 @@ fs::path Catalyst2Library::implementation_file() const {
     if (fs::exists(file, error)) return file;
     tried += (tried.empty() ? "" : ", ") + file.string();
   }
-  throw PipelineError("libcatalyst (" + file_.string() + ") has no implementation '" + implementation_ +
-                      "'; looked for " + tried +
+  throw PipelineError("libcatalyst (" + file_.string() + ") has no implementation '" + implementation_ + "'; tried " +
+                      tried +
                       ": CATALYST_IMPLEMENTATION_NAME "
                       "names one, CATALYST_IMPLEMENTATION_PATHS the folder of its file");
 }

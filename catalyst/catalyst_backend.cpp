@@ -169,7 +169,7 @@ class ScriptPipeline final : public Pipeline {
   /// Why there is no sense in going on with it, on this rank; empty: there is.
   [[nodiscard]] std::string reason_to_end() const {
     if (dropped_) return kDropped;
-    return is_.display != nullptr && is_.display->lost() ? "the X display on which it draws has gone" : "";
+    return is_.display != nullptr && is_.display->lost() ? "the X display on which it draws has closed" : "";
   }
 
   /// VTK's writers do not bear a full disk well. Empty: there is space.

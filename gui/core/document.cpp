@@ -148,7 +148,7 @@ QString Document::reload() {
   QFile in(file_);
   if (!in.open(QIODevice::ReadOnly)) return tr("%1 cannot be read: %2").arg(file_, in.errorString());
   on_disk_ = in.readAll();
-  push(difference(places_.text(), on_disk_.toStdString()), tr("take over the file"));
+  push(difference(places_.text(), on_disk_.toStdString()), tr("reload the file"));
   undo_.setClean();
   remove_snapshot();
   return {};

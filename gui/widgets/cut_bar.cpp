@@ -71,8 +71,8 @@ void CutBar::make_fields() {
   way_->setObjectName("cut_way");
   way_->setAccessibleName(tr("Cut across"));
   way_->setToolTip(
-      tr("Cut the model open by a plane across an axis, or across the direction that is looked along now (chosen "
-         "again: anew); the elements that it goes through are seen in it (Ctrl+8)"));
+      tr("Cut the model by a plane across an axis, or across the present view direction (choose again to update it); "
+         "the plane shows the elements that it cuts (Ctrl+8)"));
   slider_->setObjectName("cut_slider");
   slider_->setAccessibleName(tr("Place of the cut"));
   slider_->setToolTip(tr("Moves the cut through the model (arrow keys)"));

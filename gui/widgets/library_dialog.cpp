@@ -44,7 +44,7 @@ LibraryDialog::LibraryDialog(const UserLibrary& library, const QString& group, Q
   values_->setHorizontalHeaderLabels({tr("key"), tr("value"), tr("source")});
   values_->setObjectName("library_values");
   values_->setAccessibleName(tr("Values of the material"));
-  values_->setToolTip(tr("Every value with its source: derived and assumed ones say so"));
+  values_->setToolTip(tr("Every value with its source; derived and assumed values are marked"));
   values_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   values_->setTabKeyNavigation(false);
   values_->setWordWrap(true);

@@ -235,7 +235,7 @@ void MainWindow::join_panels() {
   connect(&queries_, &CaseQueries::divided, this, &MainWindow::show_division);
   connect(&queries_, &CaseQueries::failed, this, &MainWindow::query_failed);
   connect(&queries_, &CaseQueries::busy_changed, this,
-          [this] { busy_->setText(queries_.busy() ? tr("the solver is asked...") : QString()); });
+          [this] { busy_->setText(queries_.busy() ? tr("waiting for the solver...") : QString()); });
   connect(loader_, &FrameLoader::loaded, this, &MainWindow::show_frame);
   connect(loader_, &FrameLoader::loaded, results_, &ResultsPanel::frame_shown);
   connect(start_, &StartPage::template_chosen, this, [this](int n) { open_template(n, false); });

@@ -58,7 +58,7 @@ QStringList MainWindow::command_line() const {
 }
 
 void MainWindow::remember_run(const RunRecord& record) {
-  tell_trouble("runs", tr("The run goes on, but later windows will not list it (File > Open results)"),
+  tell_trouble("runs", tr("The run continues, but later windows will not list it (File > Open results)"),
                registry_.add(record));
 }
 

@@ -39,7 +39,7 @@ void PropertyForm::add_parameters(const case_::Key& key, QFormLayout& layout) {
   rows->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   for (const ParameterRow& row : parameter_rows_) add_parameter(row, *rows);
   if (parameter_rows_.empty()) {
-    auto* none = new QLabel(parameters_ ? tr("This mesh has none that can be set.") : tr("The solver is asked..."));
+    auto* none = new QLabel(parameters_ ? tr("This mesh has none that can be set.") : tr("Waiting for the solver..."));
     none->setWordWrap(true);
     rows->addRow(none);
   }

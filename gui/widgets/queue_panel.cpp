@@ -84,7 +84,7 @@ void QueuePanel::make_buttons(QHBoxLayout& row) {
       tr("Ranks that may run at a time, those of runs started by hand among them; 1: one run after another"));
   held_->setObjectName("queue_hold");
   held_->setAccessibleName(tr("Hold the queue"));
-  held_->setToolTip(tr("Nothing more is started; what runs goes on"));
+  held_->setToolTip(tr("No further runs are started; those in progress continue"));
   auto* label = new QLabel(tr("C&ores"));
   label->setBuddy(cores_);
   row.addWidget(label);

@@ -103,7 +103,7 @@ ResultsPanel::ResultsPanel(QWidget* parent)
 
 void ResultsPanel::make_picker(QVBoxLayout& column) {
   runs_->setObjectName("results_run");
-  runs_->setAccessibleName(tr("Run that is looked at"));
+  runs_->setAccessibleName(tr("Run that is shown"));
   runs_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   runs_->setMinimumContentsLength(12);
   connect(runs_, qOverload<int>(&QComboBox::activated), this, [this](int row) {

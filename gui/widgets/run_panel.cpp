@@ -55,15 +55,14 @@ RunPanel::RunPanel(QWidget* parent)
       run_(named_button(tr("R&un"), "run", tr("Save the case and start the run (F5)"))),
       queue_(named_button(tr("Add to &queue"), "queue_run",
                           tr("Run the case as it is now when its turn comes and cores are free (Ctrl+Shift+F5)"))),
-      pause_(named_button(tr("&Pause"), "pause", tr("Wait between two steps, and go on"))),
+      pause_(named_button(tr("&Pause"), "pause", tr("Wait between two steps; press again to continue"))),
       checkpoint_(named_button(tr("Check&point"), "checkpoint",
-                               tr("Write the whole state now; the run can be resumed from there, whatever happens"))),
+                               tr("Write the whole state now; the run can be resumed from there"))),
       stop_(
           named_button(tr("&Stop"), "stop",
                        tr("End after the present step with everything written; what does not end in time is killed"))),
-      go_on_(
-          named_button(tr("Resu&me from checkpoint"), "go_on",
-                       tr("Go on to the same results as if nothing had happened, on as many ranks as are set above"))),
+      go_on_(named_button(tr("Resu&me from checkpoint"), "go_on",
+                          tr("Continue the run, on as many ranks as are set above; results are bitwise identical"))),
       check_(named_button(tr("Chec&k"), "check", tr("Stable step, run time, memory and disk, with advice (F7)"))),
       results_(named_button(tr("&Open results"), "open_results", tr("Walk through the recorded frames of this run"))),
       command_(new QLineEdit),
@@ -90,7 +89,7 @@ RunPanel::RunPanel(QWidget* parent)
   failure_->setReadOnly(true);
   failure_->setObjectName("failure");
   failure_->setAccessibleName(tr("Why the run failed"));
-  failure_->setToolTip(tr("What the solver said"));
+  failure_->setToolTip(tr("Message of the solver"));
   failure_->setTabChangesFocus(true);
   failure_->hide();
 

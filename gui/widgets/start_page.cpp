@@ -73,7 +73,7 @@ StartPage::StartPage(const Places& places, QWidget* parent)
                       tr("No template was found: the folder of shipped cases is missing."))),
       recent_(list("recent", tr("Recent cases"), tr("None yet. Cases that are opened or saved here will be listed."))),
       runs_(list("start_runs", tr("Runs started here"),
-                 tr("None yet. Runs that are started here will be listed; those that go on say so."))) {
+                 tr("None yet. Runs that are started here will be listed with their state."))) {
   auto* demo = new QPushButton(tr("&Show me: shatter the glass plate"));
   demo->setObjectName("demo");
   demo->setAccessibleName(tr("Show me: shatter the glass plate"));

@@ -104,9 +104,9 @@ Sentences soft_penalty(const case_::Case& input, const Model& model) {
       const double depth = speed * std::sqrt(mass * h / penalty);
       if (depth <= kEdge * h) continue;
       advice.push_back(fmt::format(
-          "The contact penalty of {} between \"{}\" and \"{}\" is too soft for {}: they would enter each other by {}, "
-          "more than an element (about {}), and go on through. A penalty of {} or more stops them within a tenth of "
-          "one.",
+          "The contact penalty of {} between \"{}\" and \"{}\" is too low for {}: the overlap would reach {}, more "
+          "than an element (about {}), and the bodies would pass through each other. A penalty of {} or more limits "
+          "the overlap to a tenth of an element.",
           quantity_text(penalty, "Pa"), names[at(g)], names[other], quantity_text(speed, "m/s"),
           quantity_text(depth, "m"), quantity_text(kEdge * h, "m"),
           quantity_text(mass * h * std::pow(speed / (kShare * kEdge * h), 2), "Pa")));

@@ -173,10 +173,9 @@ Sentences sudden_load(const case_::Case& input, const Model& model) {
     const double crossing = loads.empty() ? 0.0 : solids.slowest_at_rest();
     if (crossing > 0 && stage.end - start > kStatic * crossing) {
       advice.push_back(fmt::format(
-          "Stage {} begins with {}, on bodies that are held, lie on others or are pressed on and that nothing damps: "
-          "they vibrate with up to twice the static stress. If a slow load is meant, let it grow over {} or more, {{ "
-          "ramp = {{ start = {:g}, end = ..., to = ... }} }}, and damp: a "
-          "material.viscosity of {}, or stage.local_damping{}.",
+          "Stage {} begins with {}, on bodies that are constrained, supported or pressed and have no damping: they "
+          "vibrate with up to twice the static stress. For a slow load use a ramp over {} or more, {{ ramp = {{ start "
+          "= {:g}, end = ..., to = ... }} }}, and damp: a material.viscosity of {}, or stage.local_damping{}.",
           words_of(input, stage), loads, quantity_text(kSlow * crossing, "s"), start,
           quantity_text(kViscosity * crossing * softest(model), "Pa s"),
           model.has_contact ? "; contact.damping_ratio = 0.05 damps what bounces" : ""));
@@ -218,10 +217,9 @@ std::string damped_sliding(const case_::Case& input, const Model& model) {
   if (!(last.local_damping > 0) || (model.mesh.num_bodies < 2 && !breaks)) return {};
   if (!rubs(input.contacts) && !(breaks && rubs(input.joints))) return {};
   return fmt::format(
-      "Stage {}, the last one, has a local_damping of {:g}: with friction it slows down or stops what slides, even "
-      "with "
-      "0.02, and falling bodies fall with {:g} of their acceleration. To judge what moves, leave it out there and damp "
-      "with material.viscosity.",
+      "Stage {}, the last one, has a local_damping of {:g}: with friction it slows down or stops sliding bodies, even "
+      "with 0.02, and falling bodies accelerate by {:g} of gravity. Where motion matters, omit it there and damp with "
+      "material.viscosity.",
       words_of(input, last), last.local_damping, 1 - last.local_damping);
 }
 

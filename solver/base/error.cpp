@@ -41,6 +41,14 @@ void demand_failed(const char* condition, const char* file, int line, const std:
                       condition + " does not hold" + (detail.empty() ? "" : " (" + detail + ")"));
 }
 
-Problem out_of_memory() { return {"", 0, "", "out of memory; `breccia check` tells how much a case needs", "", ""}; }
+Problem out_of_memory() {
+  return {"",
+          0,
+          "",
+          "out of memory; `breccia check` reports the memory that a case "
+          "needs",
+          "",
+          ""};
+}
 
 }  // namespace breccia

@@ -70,7 +70,7 @@ class GroupChecker {
     if (has(present, group)) return;
     const std::string list = present.empty() ? "the mesh has none" : nearest_words(group, present);
     const std::string what = has(nodes_, group)
-                                 ? "this is a curve or point of the mesh, where a " + kind + " is asked for"
+                                 ? "this is a curve or point of the mesh, where a " + kind + " is required"
                                  : "the mesh has no " + kind + " \"" + group + "\"";
     add(problem_at(case_, origin, name, what, list, group));
   }

@@ -184,9 +184,9 @@ class Validator {
     if (j.weibull_modulus > 0) return;
     const Joint usual;
     const std::string allowed = "a weibull_modulus as well";
-    if (j.weibull_area > 0) problem(j.origin, "weibull_area", "says nothing of strengths that do not scatter", allowed);
+    if (j.weibull_area > 0) problem(j.origin, "weibull_area", "has no effect without a weibull_modulus", allowed);
     if (j.weibull_seed != usual.weibull_seed)
-      problem(j.origin, "weibull_seed", "says nothing of strengths that do not scatter", allowed);
+      problem(j.origin, "weibull_seed", "has no effect without a weibull_modulus", allowed);
   }
 
   [[nodiscard]] bool is_breakable(const std::string& group) const {

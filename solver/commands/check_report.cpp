@@ -317,8 +317,7 @@ CheckReport full_report(const Subject& subject, const std::string& from) {
   report.text = fmt::format("{}\n", printable(input.title));
   if (!from.empty())
     report.text += fmt::format(
-        "starts from {}; what is said of mesh, joints, contact and step is of the model at rest, before that run\n",
-        from);
+        "starts from {}; mesh, joints, contact and step are reported for the model at rest, before that run\n", from);
   report.text += mesh_report({model.mesh, model.mesh_report}, assess_quality(model.mesh));
   report.text += fmt::format("joints: {}\n", model.joints.size());
   report.text += joint_report(model, subject.joints()) + stiffness_report(model) +

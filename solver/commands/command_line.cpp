@@ -13,17 +13,17 @@ namespace {
 
 const char* kControlFooter =
     R"(Commands:
-  pause, resume               wait between two steps, and go on
+  pause, resume               wait between two steps; continue
   stop                        end after the present step, with everything written
-  extract                     let all in-situ pipelines work on the present state
+  extract                     execute all in-situ pipelines on the present state
   frame                       write a frame
   frame_interval TIME         from now on a frame every so much simulated time, such as "2 us"
-  checkpoint                  write the whole state, from which `breccia resume` goes on
+  checkpoint                  write the whole state, from which `breccia resume` continues
 The answer comes when it is done. A line with a command in the file `control` of the run's folder does the same.)";
 
 void define_control(CLI::App& app, Arguments& a) {
   CLI::App* control =
-      app.add_subcommand("control", "Ask something of a run that goes on: pause, resume, stop, extract, ...");
+      app.add_subcommand("control", "Control a run in progress: pause, resume, stop, extract, ...");
   control->add_option("run", a.control.folder, "folder of the run")->required();
   const auto join = [&a](const std::vector<std::string>& words) {
     for (const std::string& word : words) a.control.command += (a.control.command.empty() ? "" : " ") + word;
@@ -41,7 +41,7 @@ void define_insitu(CLI::App& app, Arguments& a) {
   live->add_option("--set", a.live.overrides, kSetHelp)->allow_extra_args(false)->take_all()->check(override_text());
 
   CLI::App* insitu =
-      app.add_subcommand("insitu", "Pipelines that work while a run goes on: try them, or see what they need");
+      app.add_subcommand("insitu", "In-situ pipelines, executed during a run: test them, or list their requirements");
   insitu->require_subcommand(1);
   insitu->add_subcommand("info", "what the in-situ adaptor is, or what is missing");
   CLI::App* replay = insitu->add_subcommand(
@@ -63,7 +63,7 @@ void define_insitu(CLI::App& app, Arguments& a) {
 
 void define_report(CLI::App& app, Arguments& a) {
   CLI::App* report = app.add_subcommand("report", "Write one HTML page of a run, to read, print and send on");
-  report->add_option("run", a.report.run, "folder of the run, which may go on or have been killed")->required();
+  report->add_option("run", a.report.run, "folder of the run, which may also be in progress or killed")->required();
   report->add_option("-o,--output", a.report.file, "file of the page; default: report.html in the folder of the run")
       ->check(some_name());
   report->add_flag("--no-pictures", a.report.no_pictures, "leave out what ParaView makes of the frames");
@@ -92,11 +92,11 @@ void define_command_line(CLI::App& app, Arguments& a) {
   check->add_flag("--trust-geometry", a.check.trust_geometry, kTrustHelp);
 
   check
-      ->add_option("--ranks", a.check.ranks, "tell only how a run on so many ranks (mpiexec -n) would divide the model")
+      ->add_option("--ranks", a.check.ranks, "report only the division of the model over so many ranks (mpiexec -n)")
       ->check(CLI::Range(1, 1000000));
 
   check->add_flag("--joints", a.check.joints,
-                  "tell only, as JSON, the traction curves and strengths of the joint laws");
+                  "report only, as JSON, the traction curves and strengths of the joint laws");
   check->add_flag("--all", a.check.all, "all advice, not only the five that matter most");
   check->add_flag("--json", a.check.json, "as JSON, problems of the case too");
 
@@ -109,8 +109,8 @@ void define_command_line(CLI::App& app, Arguments& a) {
       ->check(some_name());
   mesh->add_flag("--json", a.mesh.json, "as JSON, problems of the case too");
   mesh->add_flag("--parameters", a.mesh.parameters,
-                 "tell only, as JSON, the numbers that the .geo of the case, or one that is given in its place, lets "
-                 "mesh.parameters set");
+                 "report only, as JSON, the numbers of the .geo of the case, or of a given one, that mesh.parameters "
+                 "can set");
 
   CLI::App* diff =
       app.add_subcommand("diff", "In which keys, inputs, versions and results two runs differ, and where they part");
@@ -120,7 +120,9 @@ void define_command_line(CLI::App& app, Arguments& a) {
   define_report(app, a);
 
   CLI::App* explain =
-      app.add_subcommand("explain", "What a key of the case file means: unit, default, range; without one, the keys that most cases need");
+      app.add_subcommand("explain",
+                         "Describe a key of the case file: unit, default, range; without one, the keys that most cases "
+                         "need");
   explain->add_option("key", a.key, "such as material.young, the name of a section, or a word such as notch");
   explain->add_flag("--all", a.explain_all, "every key, also those for experts");
 
@@ -138,7 +140,7 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
   } else if (error.get_name() == "ArgumentMismatch" && what.ends_with(lacking) && what.find(':') != std::string::npos) {
     what.replace(what.find(':'), std::string::npos, ": the value is missing");
   }
-  return printable(what) + "; `" + command + " --help` tells what is allowed";
+  return printable(what) + "; `" + command + " --help` lists the allowed ones";
 }
 
 /// A first word that is no command, told before anything else of the line is read. @return  empty: all is well
@@ -151,7 +153,7 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   }
   const std::string meant = case_::likely_meant(argv[1], commands);
   return "unknown command \"" + std::string(argv[1]) + "\"" + (meant.empty() ? "" : "; did you mean " + meant + "?") +
-         "; allowed: " + case_::joined(commands) + "; `breccia --help` tells what they do";
+         "; allowed: " + case_::joined(commands) + "; `breccia --help` describes them";
 }
 
 /// "insitu replay": the sub-commands that the line names.

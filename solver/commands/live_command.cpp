@@ -100,8 +100,7 @@ void demand_free(int port) {
   const int why = errno;
   ::close(listener);
   if (!is_free)
-    throw output_error("port " + std::to_string(port),
-                       "ParaView cannot listen there; insitu.live.address says where it does", why);
+    throw output_error("port " + std::to_string(port), "ParaView cannot listen there; set insitu.live.address", why);
 }
 
 /// Whether an X server listens at a socket of this machine. @param abstract  a name without a file

@@ -42,7 +42,7 @@ std::vector<Problem> with_way_around(std::vector<Problem> problems) {
   for (Problem& problem : problems) {
     if (problem.key.starts_with("insitu"))
       problem.allowed +=
-          (problem.allowed.empty() ? "" : "; or ") + std::string("--without-insitu, to go on without it");
+          (problem.allowed.empty() ? "" : "; or ") + std::string("--without-insitu, to continue without it");
   }
   return problems;
 }
@@ -51,7 +51,7 @@ void check_overrides(const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) {
     const auto is_free = [&](std::string_view key) { return text.starts_with(key); };
     if (std::none_of(kFreeKeys.begin(), kFreeKeys.end(), is_free))
-      throw refused("--set", "this would change the results of a run that goes on",
+      throw refused("--set", "this would change the results of a continued run",
                     "keys of [domains], [detection] and [checkpoint], and time.max_steps", text);
   }
 }
@@ -169,7 +169,7 @@ int go_on(const ResumeCommand& asked, const Communicator& world) {
   });
   if (complete) {
     if (world.is_root())
-      print_lines(fmt::format("{} is complete at {}; --until TIME goes on to a later end\n", run.string(),
+      print_lines(fmt::format("{} is complete at {}; --until TIME continues to a later end\n", run.string(),
                               quantity_text(from.model.clock.time, "s")));
     return 0;
   }

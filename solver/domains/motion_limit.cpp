@@ -124,7 +124,7 @@ namespace {
       "step " + std::to_string(motion.exceeded_step) + ": " + name_of_node(node == kNone ? -1 : -node) + " moves by " +
       number(length) + " m in one step, at " + number(length / dt) + " m/s, " +
       (far ? "more than half the mean size of what may touch (" + number(size) + " m): contacts would be missed"
-           : "much further than any node in the step before: contacts may be found too late") +
+           : "much further than any node in the previous step: contacts may be detected with a delay") +
       "; lower time.safety (or time.step), or the penalties, or bring what is driven to its velocity gradually");
 }
 

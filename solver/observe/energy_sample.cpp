@@ -126,7 +126,7 @@ EnergyFault energy_fault(const EnergyBudget& budget, double residual_limit, doub
     return {"the energies are not finite", "time.residual_limit"};
   if (budget.is_round_off) return {};
   if (budget.gain_relative > gain_limit)
-    return {share("the energy held exceeds what was put in by", budget.gain_relative, gain_limit),
+    return {share("the stored energy exceeds the energy put in by", budget.gain_relative, gain_limit),
             "time.energy_gain_limit"};
   if (budget.residual_relative > residual_limit)
     return {share("the energy residual is", budget.residual_relative, residual_limit), "time.residual_limit"};

@@ -192,7 +192,7 @@ void settle_state(RunRecord& record) {
   const bool alive = record.state == "running" || record.state == "paused";
   if (!alive || !holder_of(record.folder).empty()) return;
   record.state = "interrupted";
-  record.message = "no process works on it any more, and none has told its end";
+  record.message = "its process has ended without a final status";
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ class Runner {
     if (insitu_) insitu_->start_from(output_.first_step(), from_ ? &*from_ : nullptr);
     if (from_)
       output_.tell_event("resume",
-                         "the run goes on from step " + std::to_string(clock().steps) + " on " +
+                         "the run continues from step " + std::to_string(clock().steps) + " on " +
                              std::to_string(communicator_.size()) + " rank" + (communicator_.size() == 1 ? "" : "s"),
                          true);
     if (!start_words_.empty()) output_.tell_event("start", start_words_, true);

@@ -100,7 +100,7 @@ void StageSteps::judge(double stable) {
                            " s: the stable step has fallen to " + number(stable) + " s, " + number(100 * share) +
                            " % of that of the model at rest, by " + limit_text(limiter) + "; what is left would take " +
                            number(rest / (input_.time.safety * stable)) + " steps; " + remedy_of(limiter.limit);
-  if (ends) throw SimulationError(text + "; a time.step that the case gives is not looked at");
+  if (ends) throw SimulationError(text + "; a time.step given in the case is not checked");
   warning_ = text;
 }
 

@@ -144,7 +144,7 @@ LineFile::LineFile(std::filesystem::path path, std::size_t keep) : path_(std::mo
   ::close(descriptor_);
   throw output_error(
       path_,
-      too_short ? "this file has lost lines that were written before the checkpoint" : "cannot go on with this file",
+      too_short ? "this file has lost lines that were written before the checkpoint" : "cannot continue this file",
       error);
 }
 

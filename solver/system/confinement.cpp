@@ -57,8 +57,8 @@ constexpr Forbidden kForbidden[] = {
     {SYS_utimensat, "change a file's times", 1},
     {SYS_socket, "open a network connection"},
     {SYS_kill, "send a signal"},
-    {SYS_ptrace, "look into another process"},
-    {SYS_process_vm_readv, "look into another process"},
+    {SYS_ptrace, "read the memory of another process"},
+    {SYS_process_vm_readv, "read the memory of another process"},
     {SYS_process_vm_writev, "write into another process"},
 #ifdef SYS_fork  // calls that newer architectures do without
     {SYS_fork, "start a process"},

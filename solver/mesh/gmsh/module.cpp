@@ -135,7 +135,7 @@ void refuse_hxt(const GmshSource& source) {
   gmsh::option::getNumber("Mesh.Algorithm3D", algorithm);
   if (algorithm != kHxt) return;
   throw InputError(Problem{source.file.string(), 0, "Mesh.Algorithm3D",
-                           "asks for HXT, which makes another mesh each time",
+                           "selects HXT, which makes another mesh each time",
                            "1 (Delaunay) or 4 (Frontal), or a mesh file that gmsh has written", std::to_string(kHxt)});
 }
 

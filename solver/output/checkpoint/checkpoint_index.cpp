@@ -132,7 +132,7 @@ Header parsed_header(const std::filesystem::path& file, const std::vector<std::b
                                &format, &size, &offset, &checksum, &all);
   if (read >= 1 && format != kCheckpointFormat)
     refuse_checkpoint(file, fmt::format("this checkpoint has format {}, of another version of breccia (this one reads "
-                                        "{}): go on with the version that wrote it, or run its case again",
+                                        "{}): continue with the version that wrote it, or run its case again",
                                         format, kCheckpointFormat));
   Header header{{offset, size, checksum}, all};
   if (read != 5 || header_bytes(header.index, header.size) != bytes)

@@ -165,17 +165,17 @@ std::string ask_run(const fs::path& run_folder, const std::string& command, doub
   demand_plain_folder(folder);
   std::error_code error;
   if (!fs::exists(folder.status(), error))
-    throw no_answer(run_folder, "no run of breccia writes here", "the folder of a run that goes on");
+    throw no_answer(run_folder, "no run of breccia writes here", "the folder of a run in progress");
   run_folder::GrowingLines status(folder.status());
   // What stands there before the request answers none.
   do {
     for (const std::string& line : status.news().lines) {
       if (is_over(run_folder::parse_status_line(line)))
-        throw no_answer(run_folder, "this run has ended", "the folder of a run that goes on");
+        throw no_answer(run_folder, "this run has ended", "the folder of a run in progress");
     }
   } while (status.has_more());
   if (fs::exists(lock_file(run_folder), error) && holder_of(run_folder).empty())
-    throw no_answer(run_folder, "this run was interrupted: its process is gone", "the folder of a run that goes on");
+    throw no_answer(run_folder, "this run was interrupted: its process has ended", "the folder of a run in progress");
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
   const auto in_time = [&] { return std::chrono::steady_clock::now() < end; };
   const std::string id = std::to_string(::getpid()) + "." + std::to_string(::gettid()) + "." +
@@ -194,7 +194,7 @@ std::string ask_run(const fs::path& run_folder, const std::string& command, doub
     std::this_thread::sleep_for(kGlance);
   }
   if (put && content_of(folder.control()) == line) fs::remove(folder.control(), error);
-  throw no_answer(run_folder, "the run does not answer; is it still there?", "the folder of a run that goes on");
+  throw no_answer(run_folder, "the run does not respond; it may have ended", "the folder of a run in progress");
 }
 
 }  // namespace breccia

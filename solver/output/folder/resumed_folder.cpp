@@ -34,7 +34,7 @@ void demand_lines(const fs::path& file, std::int64_t bytes, const Checkpoint& fr
   Problem problem;
   problem.file = file.string();
   problem.what = there ? "this file has lost lines that were written before the checkpoint"
-                       : "this file is gone, with its lines from before the checkpoint";
+                       : "this file is missing, with its lines from before the checkpoint";
   problem.allowed = fmt::format(
       "the file as the run left it; or, without it, a new run: a case with [start] from = this run, step = {}",
       from.model.clock.steps);

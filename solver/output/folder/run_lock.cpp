@@ -76,7 +76,7 @@ void conclude(const char* status, bool failed) {
     const std::string_view state = last == std::string_view::npos ? "" : text.substr(last, 24);
     // Without a line: it has not come to its first step.
     if (state.empty() || says(state, "\"running\"") || says(state, "\"paused\"")) {
-      const char* line = failed ? "{\"state\":\"failed\",\"message\":\"ended by an error, which was told on stderr\"}\n"
+      const char* line = failed ? "{\"state\":\"failed\",\"message\":\"ended by an error, which is on stderr\"}\n"
                                 : "{\"state\":\"interrupted\",\"message\":\"the process ended without a word: killed, "
                                   "or the machine stopped it\"}\n";
       if (!whole) (void)!::write(file, "\n", 1);

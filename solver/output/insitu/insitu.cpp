@@ -167,7 +167,7 @@ InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
     const std::uint32_t channels = plugin_.api().channels(adaptor_, static_cast<std::int32_t>(i), now.step, now.time);
     if (channels == 0 && pipelines_[i].failures > 0) {  // a script that failed when it was read: it is not read again
       pipelines_[i].off = true;
-      tell_("pipeline " + pipelines_[i].name + ": switched off, it asks for nothing since it failed", false);
+      tell_("pipeline " + pipelines_[i].name + ": switched off, as it requests nothing after its failure", false);
     }
     if (channels == 0) continue;
     plan.channels |= channels;

@@ -63,7 +63,7 @@ TEST(Unmeant, IsAPenaltyThatIsLoweredForItsPlateau) {
 
 TEST(Unmeant, IsAPenaltyTooSoftToStopWhatComesWithinAnElement) {
   EXPECT_THAT(advice_on(kFlying, {"contact[0].penalty=1 kPa"}),
-              AllOf(HasSubstr("penalty of 1 kPa between \"rock\" and \"rock\" is too soft for 10 m/s"),
+              AllOf(HasSubstr("penalty of 1 kPa between \"rock\" and \"rock\" is too low for 10 m/s"),
                     HasSubstr("more than an element")));
   EXPECT_EQ(advice_on(kFlying), "");
   EXPECT_EQ(advice_on("", {"contact[0].penalty=1 kPa"}), "") << "nothing moves";
