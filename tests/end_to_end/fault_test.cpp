@@ -63,7 +63,8 @@ TEST_P(Fault, SaysThatThereIsNoCheckpointFromBeforeIt) {
   const Outcome failed = run("failed", driven("1e6 m/s"), "--set checkpoint.keep=0");
   EXPECT_EQ(failed.exit_code, 3) << failed.err;
   EXPECT_NE(failed.err.find("sound before that: frame "), std::string::npos) << failed.err;
-  EXPECT_NE(failed.err.find("no checkpoint (set checkpoint.steps or checkpoint.interval)"), std::string::npos) << failed.err;
+  EXPECT_NE(failed.err.find("no checkpoint (set checkpoint.steps or checkpoint.interval)"), std::string::npos)
+      << failed.err;
 }
 
 /// A bar of soft elements that share nodes, drawn out until they are thirty times as long.
