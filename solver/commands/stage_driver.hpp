@@ -15,7 +15,7 @@ class StageDriver {
   StageDriver(const case_::Case& input, Partition& partition) : input_(input), partition_(partition) {
     steps_.emplace(input_, input_.stages[stage_], partition_);
   }
-  /// Goes on from a snapshot. @param looks  of the driver that it was taken of
+  /// Continues from a snapshot. @param looks  of the driver of the snapshot
   StageDriver(const case_::Case& input, Partition& partition, std::size_t stage, const StepLooks& looks)
       : input_(input), partition_(partition), stage_(stage) {
     steps_.emplace(input_, input_.stages[stage_], partition_, looks);
