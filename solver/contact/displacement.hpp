@@ -17,7 +17,7 @@ namespace breccia {
 [[nodiscard]] double relative_displacement(const LocalMesh& local, const Field<double>& now, const Field<double>& then,
                                            const Communicator& communicator);
 
-/// What is known of the motion in a step, m.
+/// Known motion in a step, m.
 struct KnownMotion {
   double length = 0;      ///< largest motion of a node of any rank in the last step, or in an earlier one if received
                           ///< with delay
@@ -28,8 +28,7 @@ struct KnownMotion {
 /// the largest speeds times the step.
 ///
 /// On several ranks the largest speed is received some steps later; each step not received counts as twice the last
-/// one. What nodes may move beyond that belongs to `ahead`; a run in which they move further still ends
-/// (domains/motion_limit.hpp).
+/// one. Larger motion is part of `ahead`; a run in which nodes move further still ends (domains/motion_limit.hpp).
 class DisplacementWatch {
  public:
   /// @param late  delay of the lengths, in steps

@@ -105,16 +105,16 @@ template <class T>
   return p;
 }
 
-/// A joint is a crack, whatever its other points do, once it has damage and a corner is farther open than this many
-/// times the critical opening of its mode, d_nt + D_n, while it holds d_st + D_s ...
+/// A joint is a crack, for any state of its other points, once it has damage and a corner is farther open than this
+/// many times the critical opening of its mode, d_nt + D_n, or d_st + D_s while it has cohesion ...
 inline constexpr double kCrackOpening = 10;
 /// ... or a corner's opening is longer than this share of the size of the mid-surface, the root of its area: then that
-/// surface says nothing about the two faces.
+/// surface does not represent the two faces.
 inline constexpr double kLostShape = 0.5;
 /// Share of the reference area below which a mid-surface has no normal to turn.
 inline constexpr double kFlat = 0.01;
-/// Evaluations in which a crack hands over what it still carries, pressure of closed points mostly: no force jumps. It
-/// is faster where the opening grows beyond kLostShape meanwhile (most_held).
+/// Evaluations in which the remaining forces of a crack decay, mostly pressure of closed points: no force jumps. It is
+/// faster where the opening grows beyond kLostShape meanwhile (most_held).
 inline constexpr double kHandoverSteps = 64;
 
 /// Joints that are cracks by their opening.

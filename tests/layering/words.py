@@ -43,9 +43,13 @@ PLAIN = [
 ]
 REFUSED = [(re.compile(rf"\b(?:{word})\b", re.IGNORECASE), plain) for word, plain in PLAIN]
 
+# Code within a comment: names of parameters and functions, and what stands between backticks.
+CODE = re.compile(r"`[^`]*`|@param +\w+(?:, \w+)*|\b\w+\(\)")
+
 # (files, a regular expression that covers the word, reason): legitimate uses.
 EXCEPTIONS = [
     ("solver/case/topics.cpp", r"static analysis\|settle", "a search word of `breccia explain`, which readers from other codes type"),
+    ("*", r"[Ll]ook(?:s|ed|ing)? up|look-ups?", "the term for reading a table or tree"),
     ("catalyst/python/live_steering.py", r"say\(line\)", "the name of a function"),
 ]
 
@@ -124,6 +128,8 @@ def words_of(file, source):
         flat, offsets = collapsed(text)
         if kind == "string" and " " not in flat.strip():
             continue
+        if kind == "comment":
+            flat = CODE.sub(lambda match: "_" * len(match.group()), flat)
         for files, phrase, _ in EXCEPTIONS:
             if fnmatch(file, files):
                 flat = re.sub(phrase, lambda match: "_" * len(match.group()), flat)

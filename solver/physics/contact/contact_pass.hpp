@@ -38,7 +38,7 @@ struct Candidate {
   DelayedForce delayed{};        ///< of the same
   double turn = 0;               ///< m, gradient now times the last motion beyond what the overlap has changed by
   std::ptrdiff_t old = -1;       ///< index of its history among those of the last step, -1: none
-  std::optional<Vec3> motion{};  ///< m, relative_motion(), once it has been asked for
+  std::optional<Vec3> motion{};  ///< m, relative_motion(), once it has been computed
 };
 
 /// A couple of the point at hand that lies in the contactor or just beside it.
@@ -48,7 +48,7 @@ struct Nearby {
   double safe;  ///< m, as in LookBlock
 };
 
-/// A couple that is looked at, and where its point is.
+/// A couple to be evaluated, and the position of its point.
 struct Look {
   ContactCouple* couple;
   std::array<double, 4> lambda;
@@ -56,11 +56,11 @@ struct Look {
   Whereabouts where;
 };
 
-/// A point that is looked at, with its couples.
+/// A point to be evaluated, with its couples.
 struct PointLooks {
   PointCouples* point;
   std::span<ContactCouple> couples;
-  std::size_t first;  ///< of its looks
+  std::size_t first;  ///< of its couples
 };
 
 /// A force that is to be added to nodes, in its turn: of a couple in the block, or known already.
@@ -219,7 +219,7 @@ class Pass {
   [[nodiscard]] double held(const ContactPoint& point, const TouchingCouple& h) const {
     return normal_held(point, h) + 0.5 * spring_stiffness(point, h) * h.spring.squaredNorm();
   }
-  /// @pre the contactor has been looked at in this step
+  /// @pre the contactor has been evaluated in this step
   [[nodiscard]] const PreparedTetra& prepared(Index contactor) const {
     return contact_.prepared[static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)])];
   }
@@ -265,7 +265,7 @@ class Pass {
   std::vector<Nearby> inside_;         ///< of the same point, ascending: couples whose contactor holds it
   std::vector<Nearby> beside_;         ///< likewise: it lies just outside
   std::vector<bool> taken_;            ///< old histories of the point at hand that live on
-  std::size_t old_ = 0;                ///< first old history not yet looked at
+  std::size_t old_ = 0;                ///< first old history not yet compared
   ExactSum ignored_;                   ///< what other ranks account
 
   // Couples of the points before that are evaluated side by side, and all forces from the first of these on.

@@ -51,12 +51,12 @@ template <class Vector, class Real = typename Vector::Scalar>
   return {-k * xi, select(slides, dissipated, zero)};
 }
 
-/// The normal force that limits friction, late.
+/// The delayed normal force that limits friction.
 template <class Real>
 struct DelayedForceOf {
   Real force = 0.0;    ///< N
   Real age = 0.0;      ///< s, of the overlap, up to kSettledAge; counts down while there is none
-  Real halfway = 0.0;  ///< N, late by half of the delay: what `force` follows
+  Real halfway = 0.0;  ///< N, delayed by half of the delay: `force` follows it
 };
 using DelayedForce = DelayedForceOf<double>;
 
@@ -98,8 +98,8 @@ inline void forget_normal_force(double dt, DelayedForce& delayed) {
   if (!(delayed.age > 0)) delayed = {};
 }
 
-/// Turns a spring with the surfaces that it lies between, by an angle about their normal: what sticks to a body that
-/// spins about the normal is held as on one at rest. Cayley's form of the rotation keeps lengths; it turns by
+/// Turns a spring with the surfaces that it lies between, by an angle about their normal: a point that sticks to a body
+/// spinning about the normal is treated as on one at rest. Cayley's form of the rotation keeps lengths; it turns by
 /// a - a^3/12 for an angle a.
 /// @param normal  unit vector;  @param angle  rad, of both surfaces in the mean during the step
 template <class Vector, class Real = typename Vector::Scalar>
@@ -109,7 +109,8 @@ void turn_spring(const std::type_identity_t<Vector>& normal, const std::type_ide
   xi += 2.0 / (1.0 + half.squaredNorm()) * (across + half.cross(across));
 }
 
-/// Of a spring that lets go in a step, J, >= 0: the same with the limit 0. @param motion  as above, along the surface
+/// Of a spring that is released in a step, J, >= 0: the same with the limit 0. @param motion  as above, along the
+/// surface
 template <class Vector>
 [[nodiscard]] double released_by_friction(const std::type_identity_t<Vector>& motion, double k, const Vector& xi) {
   return elasticity::greater(0.0, 0.5 * k * xi.dot(xi + motion));
