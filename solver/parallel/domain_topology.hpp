@@ -27,11 +27,11 @@ struct DomainSpec {
   std::optional<DomainBox> box;  ///< grid: the box that n divides, once it is fixed; outer domains extend to infinity
 };
 
-/// Domains along each axis of a grid of `parts`: the factorisation that agrees with what was asked for, fits and cuts
-/// the least area; of equals the one with the fewest domains along x, then y.
+/// Domains along each axis of a grid of `parts`: the factorisation that agrees with the given numbers, fits and cuts
+/// the least area; among equals the one with the fewest domains along x, then y.
 /// @param box  of the centroids;  @param longest_edge  m, of the largest element
-/// Throws InputError when no product of n is `parts`, and it names all that are; or when a domain would be smaller than
-/// the largest element, and it names the largest grid that fits.
+/// Throws InputError when no product of n is `parts`, with all factorisations; or when a domain would be smaller than
+/// the largest element, with the largest grid that fits.
 [[nodiscard]] std::array<int, 3> grid_of(const DomainSpec& spec, int parts, const DomainBox& box, double longest_edge);
 
 /// A grid with fixed n and box: its domains do not move while bodies move. rcb: unchanged. Collective. Throws as

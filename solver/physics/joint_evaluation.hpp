@@ -106,7 +106,7 @@ template <class T>
 }
 
 /// A joint is a crack, for any state of its other points, once it has damage and a corner is farther open than this
-/// many times the critical opening of its mode, d_nt + D_n, or d_st + D_s while it has cohesion ...
+/// many times the critical opening of its mode, d_nt + D_n, or d_st + D_s while it has not failed ...
 inline constexpr double kCrackOpening = 10;
 /// ... or a corner's opening is longer than this share of the size of the mid-surface, the root of its area: then that
 /// surface does not represent the two faces.
@@ -136,7 +136,7 @@ template <class T>
   return damaged && crack;
 }
 
-/// Largest share of its forces that a crack still carries: 1 up to an opening of kLostShape times the size of its
+/// Largest remaining share of the forces of a crack: 1 up to an opening of kLostShape times the size of its
 /// mid-surface, 0 from twice that on. Elements that fold about a hinge lie back to back within fewer steps than
 /// kHandoverSteps; the mid-surface then has no area, and its normal changes sign.
 template <class T>
@@ -147,7 +147,7 @@ template <class T>
   return select(shape2 > 0.0, greater(T(2.0 - root(T(largest2 / shape2))), T(0.0)), T(0.0));
 }
 
-/// Evaluates the points and takes what they dissipate; returns the force on each corner of a.
+/// Evaluates the points and accumulates their dissipation; returns the force on each corner of a.
 template <class T>
 [[nodiscard]] inline Triple<T> evaluate_points(const JointLawParams& law, const Kinematics<T>& k, Joint<T>& joint) {
   Response<T> response[3];
