@@ -24,7 +24,7 @@ namespace breccia::gui {
 namespace {
 
 constexpr int kRunsRemembered = 200;
-constexpr int kLooksAfterEnd = 3;
+constexpr int kPollsAfterEnd = 3;
 
 /// The library that keeps what a process listens at on this machine; empty: it is not installed.
 QString loopback_library(const QStringList& command) {
@@ -238,10 +238,10 @@ void SolverRun::look() {
   look_at_frames();
   // The last line of a run that was killed is written by a process that outlives it for a moment.
   if (alive_) {
-    looks_after_end_ = 0;
+    polls_after_end_ = 0;
     told_end_ = false;
   }
-  if (alive_ || ++looks_after_end_ <= kLooksAfterEnd || history_file_.has_more()) return;
+  if (alive_ || ++polls_after_end_ <= kPollsAfterEnd || history_file_.has_more()) return;
   timer_.stop();
   if (told_end_) return;
   told_end_ = true;

@@ -124,7 +124,7 @@ class SolverRun final : public QObject {
   QTimer timer_;
   QElapsedTimer stopping_;
   Patience patience_;
-  int looks_after_end_ = 0;
+  int polls_after_end_ = 0;
   bool alive_ = true, terminated_ = false, told_end_ = false, wants_history_ = false;
 };
 

@@ -13,10 +13,10 @@
 namespace breccia::gui {
 namespace {
 
-constexpr int kLook = 1000;         // ms
-constexpr int kProgress = 2;        // column
-constexpr int kWhole = 1000;        // of a bar
-constexpr qint64 kStarting = 5000;  // ms that a worker needs at most before it holds its lock
+constexpr int kUpdateInterval = 1000;  // ms
+constexpr int kProgress = 2;           // column
+constexpr int kWhole = 1000;           // of a bar
+constexpr qint64 kStarting = 5000;     // ms that a worker needs at most before it holds its lock
 
 }  // namespace
 
@@ -46,7 +46,7 @@ QueuePanel::QueuePanel(const RunQueue& queue, QWidget* parent)
   column->addWidget(why_);
   column->addLayout(row);
   connect(&timer_, &QTimer::timeout, this, &QueuePanel::look);
-  timer_.start(kLook);
+  timer_.start(kUpdateInterval);
   contents_ = queue_.load();
   show_contents();
 }

@@ -17,7 +17,7 @@
 namespace breccia::gui {
 namespace {
 
-constexpr int kLook = 2000;  // ms
+constexpr int kUpdateInterval = 2000;  // ms
 const QString kFirstColumn = "broken joints";
 constexpr int kWidestBox = 300;  // pixels
 
@@ -54,7 +54,7 @@ StudyPanel::StudyPanel(const Document& document, const RunQueue& queue, QWidget*
   row->addWidget(chart_, 4);
   connect(&timer_, &QTimer::timeout, this, &StudyPanel::look);
   connect(&reader_, &QFutureWatcher<std::vector<StudyResult>>::finished, this, &StudyPanel::take_results);
-  timer_.start(kLook);
+  timer_.start(kUpdateInterval);
   connect(&document_, &Document::changed, this, [this] {
     if (isVisible()) fill_keys();
   });

@@ -91,12 +91,12 @@ std::vector<double> face_sizes(const Model& model) {
 }  // namespace
 
 Sentences late_contact(const Model& model) {
-  constexpr double kWorthTelling = 0.01;  // of the edges there
+  constexpr double kReportedShare = 0.01;  // of the edges there
   Sentences advice;
   if (!model.has_contact || !model.contact_everywhere) return advice;
   std::vector<double> late(model.mesh.volume_groups.size(), 0.0);
   for (const Corner& corner : corners_of_surface(model)) {
-    if (corner.group < 0 || !corner.smooth || corner.late < kWorthTelling * corner.edge) continue;
+    if (corner.group < 0 || !corner.smooth || corner.late < kReportedShare * corner.edge) continue;
     late[at(corner.group)] = std::max(late[at(corner.group)], corner.late);
   }
   for (std::size_t g = 0; g < late.size(); ++g) {

@@ -26,7 +26,7 @@ constexpr double kViscosity = 0.005;
 /// to 5 % too little.
 constexpr double kSlidingViscosity = 0.05;
 /// Share of it that is enough: the reported value is rounded.
-constexpr double kAsTold = 0.95;
+constexpr double kSufficientShare = 0.95;
 
 /// Whether anything takes energy out of vibrations in a stage.
 /// @param viscosity  Pa s, of a material, that is enough: more than this
@@ -65,14 +65,14 @@ Vec3 sum_at(const std::vector<Load>& loads, std::string Load::*name, const std::
 
 /// Loads that a stage begins with, in words; empty: none that comes suddenly.
 std::string sudden_loads(const case_::Stage& stage, const case_::Stage* before, double start) {
-  constexpr double kMuch = 0.1;  // of the load, in one step
+  constexpr double kLargeJump = 0.1;  // of the load, in one step
   const Vec3 last = before != nullptr ? gravity_at(*before, start) : Vec3::Zero(), first = gravity_at(stage, start);
   std::string loads;
-  if ((first - last).norm() > kMuch * std::max(first.norm(), gravity_at(stage, stage.end).norm()))
+  if ((first - last).norm() > kLargeJump * std::max(first.norm(), gravity_at(stage, stage.end).norm()))
     loads = fmt::format("gravity ({} at once)", quantity_text((first - last).norm(), "m/s2"));
   for (const case_::Pressure& p : stage.pressures) {
     const double jump = pressure_at(&stage, p.surface, start) - pressure_at(before, p.surface, start);
-    if (std::abs(jump) <= kMuch * std::max(std::abs(p.value(start)), std::abs(p.value(stage.end)))) continue;
+    if (std::abs(jump) <= kLargeJump * std::max(std::abs(p.value(start)), std::abs(p.value(stage.end)))) continue;
     loads += fmt::format("{}the pressure on \"{}\" ({} at once)", loads.empty() ? "" : " and ", p.surface,
                          quantity_text(jump, "Pa"));
   }
@@ -82,7 +82,7 @@ std::string sudden_loads(const case_::Stage& stage, const case_::Stage* before, 
       const Vec3 now = sum_at(stage.*member, name, load.*name, start);
       const Vec3 then = before != nullptr ? sum_at(before->*member, name, load.*name, start) : Vec3(Vec3::Zero());
       const double jump = (now - then).norm();
-      if (jump <= kMuch * std::max(value_at(load.value, start).norm(), value_at(load.value, stage.end).norm()))
+      if (jump <= kLargeJump * std::max(value_at(load.value, start).norm(), value_at(load.value, stage.end).norm()))
         continue;
       loads += fmt::format("{}the {} on \"{}\" ({} at once)", loads.empty() ? "" : " and ", what, load.*name,
                            quantity_text(jump, unit));
@@ -194,7 +194,7 @@ Sentences undamped_friction(const case_::Case& input, const Model& model) {
   const double viscosity = kSlidingViscosity * entries.largest * Solids(model).slowest_crossing() * softest(model);
   double start = 0;
   for (const case_::Stage& stage : input.stages) {
-    if (!damped(input, stage, kAsTold * viscosity) && is_loaded(stage, start)) {
+    if (!damped(input, stage, kSufficientShare * viscosity) && is_loaded(stage, start)) {
       return {fmt::format(
           "{} stage {}, and there is friction (coefficients: {}) with which elastic bodies that slide vibrate and rub "
           "too little; contact.friction_delay prevents that in what slides steadily, up to a coefficient of 0.6, not "

@@ -80,8 +80,8 @@ std::string overlap_report(const Subject& subject) {
 
 /// What an estimate leaves out. Two bodies that cannot break share one zone of contact, which costs little.
 std::string not_counted(const Model& model, bool breaks) {
-  constexpr Index kFew = 2;
-  if (!model.has_contact || (!breaks && model.mesh.num_bodies <= kFew)) return {};
+  constexpr Index kCheapBodies = 2;
+  if (!model.has_contact || (!breaks && model.mesh.num_bodies <= kCheapBodies)) return {};
   return fmt::format(" (not counted: contact among {}, with which it can be several times as long)",
                      breaks ? "debris" : "many bodies");
 }

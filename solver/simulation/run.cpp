@@ -28,7 +28,7 @@ std::atomic<bool> stop_requested{false};
 
 namespace {
 
-/// Between two looks at the control file while the run is paused.
+/// Between two polls of the control file while the run is paused.
 constexpr auto kPausedLook = std::chrono::milliseconds(100);
 
 class Runner {
@@ -137,7 +137,7 @@ class Runner {
   StageSteps begin_stage(std::size_t s) {
     const case_::Stage& stage = input_.stages[s];
     if (!from_ || s != first_stage()) return {input_, stage, partition_};
-    StageSteps steps(input_, stage, partition_, StepLooks{from_->until_look, from_->since_look, from_->calm});
+    StageSteps steps(input_, stage, partition_, StepSchedule{from_->until_look, from_->since_look, from_->growth});
     if (options_.extended && s + 1 == input_.stages.size()) steps.fit_end();
     return steps;
   }
@@ -254,9 +254,9 @@ class Runner {
 
   [[nodiscard]] RunPosition position() const {
     RunPosition position = output_.position();
-    position.until_look = steps_->looks().until;
-    position.since_look = steps_->looks().since;
-    position.calm = steps_->looks().calm;
+    position.until_look = steps_->schedule().until;
+    position.since_look = steps_->schedule().since;
+    position.growth = steps_->schedule().growth_steps;
     if (insitu_) position.broken_count = insitu_->broken_count();
     return position;
   }

@@ -13,10 +13,10 @@ namespace breccia {
 inline constexpr double kSmallestStep = 1e-3;
 
 /// When the stable step is evaluated.
-struct StepLooks {
-  std::int64_t until = 0;  ///< steps to the next evaluation
-  std::int64_t since = 0;  ///< steps from the last one
-  std::int64_t calm = 0;   ///< steps up to the last one in which every evaluation found one more than half longer
+struct StepSchedule {
+  std::int64_t until = 0;         ///< steps to the next evaluation
+  std::int64_t since = 0;         ///< steps from the last one
+  std::int64_t growth_steps = 0;  ///< steps until the last one in which every evaluation found one half longer
 };
 
 /// The steps of one stage: their length, and the end of the stage. A stage is a whole number of equal steps, as long as
@@ -34,8 +34,8 @@ class StageSteps {
   /// Begins the stage. Collective. Throws InputError where it would take more steps than can be counted.
   /// @pre input, stage and partition outlive this object
   StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition);
-  /// Continues a stage that has begun. Collective. @param looks  as they were
-  StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition, const StepLooks& looks);
+  /// Continues a stage that has begun. Collective. @param schedule  as it was
+  StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition, const StepSchedule& schedule);
 
   [[nodiscard]] bool over() const {
     return !(partition_.state().clock.time < stage_.end - 0.5 * partition_.state().clock.dt);
@@ -52,7 +52,7 @@ class StageSteps {
   void look();
   /// Warning of the last evaluation, returned once: the step has fallen below another tenth of that at rest.
   [[nodiscard]] std::string take_warning() { return std::exchange(warning_, {}); }
-  [[nodiscard]] const StepLooks& looks() const { return looks_; }
+  [[nodiscard]] const StepSchedule& schedule() const { return schedule_; }
   /// Where the end of the stage has moved: steps that fit it. Collective.
   void fit_end();
 
@@ -75,7 +75,7 @@ class StageSteps {
   const case_::Case& input_;
   const case_::Stage& stage_;
   Partition& partition_;
-  StepLooks looks_;
+  StepSchedule schedule_;
   double at_rest_ = 0;  ///< s, stable step of the model at rest; 0: not known, as the step is given
   std::string warning_;
 };

@@ -32,7 +32,7 @@ namespace {
 
 // First byte of what a child reports; kForbiddenMark is one of them too.
 constexpr char kResult = 'R', kNoMemory = 'M', kNotConfined = 'N';
-constexpr int kGlance = 50;  // ms between two looks at clock, memory and signals
+constexpr int kPollInterval = 50;  // ms between two looks at clock, memory and signals
 
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool kAddressSpaceCanBeLimited = false;  // the sanitizer reserves terabytes of addresses
@@ -157,7 +157,7 @@ ChildEnd::Kind listen(pid_t process, const ChildLimits& limits, int report, std:
   const std::uint64_t most = limits.bytes > 0 ? memory_of(process, 1) + limits.bytes : 0;
   for (;;) {
     pollfd look{report, POLLIN, 0};
-    const int ready = ::poll(&look, 1, kGlance);
+    const int ready = ::poll(&look, 1, kPollInterval);
     if (ready > 0 && !take(report, bytes)) return ChildEnd::Kind::finished;
     if (limits.bytes > 0 && memory_of(process, 0) > before + limits.bytes / kCrashShare) grew = true;
     if (interruption != 0) return ChildEnd::Kind::interrupted;

@@ -25,10 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestRequest = 1 << 16;         // bytes; what is longer is cut
-constexpr std::size_t kLongestLine = 200;                // bytes; what is longer is no command, and told as far as this
-constexpr std::size_t kMostLines = 100;                  // of one request, each of which is answered; the rest is not
-constexpr auto kGlance = std::chrono::milliseconds(20);  // between two looks for an answer
+constexpr std::size_t kLongestRequest = 1 << 16;  // bytes; what is longer is cut
+constexpr std::size_t kLongestLine = 200;         // bytes; what is longer is no command, and told as far as this
+constexpr std::size_t kMostLines = 100;           // of one request, each of which is answered; the rest is not
+constexpr auto kPollInterval = std::chrono::milliseconds(20);  // between two looks for an answer
 
 /// Takes " id=WORD" off the end.
 std::string take_id(std::string& text) {
@@ -94,7 +94,7 @@ bool put_request(const fs::path& control, const std::string& line, const std::st
       fs::rename(own, control, error);  // a file system without links
       put = !error;
     }
-    if (!put) std::this_thread::sleep_for(kGlance);
+    if (!put) std::this_thread::sleep_for(kPollInterval);
   }
   fs::remove(own, ignored);
   return put;
@@ -191,7 +191,7 @@ std::string ask_run(const fs::path& run_folder, const std::string& command, doub
       }
       if (is_over(news)) throw no_answer(run_folder, "the run has ended meanwhile", "");
     }
-    std::this_thread::sleep_for(kGlance);
+    std::this_thread::sleep_for(kPollInterval);
   }
   if (put && content_of(folder.control()) == line) fs::remove(folder.control(), error);
   throw no_answer(run_folder, "the run does not respond; it may have ended", "the folder of a run in progress");

@@ -23,7 +23,7 @@
 namespace breccia {
 namespace {
 
-constexpr char kErrorTold = '\1';       // from the run to its watch: an error has been told
+constexpr char kErrorReported = '\1';   // from the run to its watch: an error has been told
 constexpr std::size_t kTail = 1 << 14;  // bytes at the end of status.jsonl that hold its last line
 
 /// What the lock file says of its owner: "process 17 on host, since TIME".
@@ -95,7 +95,7 @@ void conclude(const char* status, bool failed) {
     for (int d = 4; d < 65536; ++d) ::close(d);
   }
   for (const int d : {0, 1, 2}) ::close(d);
-  static std::array<char, 1 << 13> received;  // two paths, each ended by a zero, then perhaps kErrorTold
+  static std::array<char, 1 << 13> received;  // two paths, each ended by a zero, then perhaps kErrorReported
   std::size_t size = 0;
   for (;;) {
     const ssize_t got = ::read(3, received.data() + size, received.size() - size);
@@ -109,7 +109,7 @@ void conclude(const char* status, bool failed) {
   const auto* second_end =
       static_cast<const char*>(std::memchr(status, 0, size - static_cast<std::size_t>(status - received.data())));
   if (second_end == nullptr) ::_exit(0);
-  const bool failed = second_end + 1 < received.data() + size && second_end[1] == kErrorTold;
+  const bool failed = second_end + 1 < received.data() + size && second_end[1] == kErrorReported;
   const int lock = ::open(received.data(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   // A process that ends lets go of the pipe and of the lock one after the other. If the lock stays taken, another run
   // has begun in this folder, and the file is that run's.
@@ -176,7 +176,7 @@ RunWatch::RunWatch() : exceptions_(std::uncaught_exceptions()) {
 
 RunWatch::~RunWatch() {
   if (pipe_ < 0) return;
-  if (std::uncaught_exceptions() > exceptions_) send(pipe_, std::string_view(&kErrorTold, 1));
+  if (std::uncaught_exceptions() > exceptions_) send(pipe_, std::string_view(&kErrorReported, 1));
   ::close(pipe_);
 }
 

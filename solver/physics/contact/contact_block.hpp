@@ -27,7 +27,7 @@ struct ContactRow {
 enum class Whereabouts : std::uint8_t { inside, beside, outside, nowhere };
 
 /// Eight couples to be evaluated. Empty places are computed too, and have to be a contactor's.
-struct alignas(64) LookBlock {
+struct alignas(64) LocateBlock {
   const PreparedTetra* tetra[kLanes] = {};
   ContactRow x[3];  ///< m, of the point
   // Results.
@@ -70,11 +70,11 @@ struct alignas(64) ContactBlock {
 /// motion, no force any more.
 /// @param velocity  nodal field, m/s;  @param dt  s
 using PressKernel = void (*)(double dt, const double* velocity, ContactBlock& block);
-using LookKernel = void (*)(LookBlock& block);
+using LocateKernel = void (*)(LocateBlock& block);
 
 /// Compiled for one instruction set.
 struct ContactKernels {
-  LookKernel look;
+  LocateKernel locate;
   PressKernel press;  ///< null: couples are evaluated one by one
 };
 [[nodiscard]] ContactKernels contact_kernels_sse2();

@@ -45,19 +45,19 @@ struct Candidate {
 struct Nearby {
   ContactCouple* couple;
   std::array<double, 4> lambda;
-  double safe;  ///< m, as in LookBlock
+  double safe;  ///< m, as in LocateBlock
 };
 
 /// A couple to be evaluated, and the position of its point.
-struct Look {
+struct Located {
   ContactCouple* couple;
   std::array<double, 4> lambda;
-  double safe;  ///< m, as in LookBlock
+  double safe;  ///< m, as in LocateBlock
   Whereabouts where;
 };
 
 /// A point to be evaluated, with its couples.
-struct PointLooks {
+struct LocatedPoint {
   PointCouples* point;
   std::span<ContactCouple> couples;
   std::size_t first;  ///< of its couples
@@ -117,8 +117,8 @@ class Pass {
   [[nodiscard]] PreparedTetra prepare_past_contactor(Index contactor);
   void look_at(PointCouples& point, std::span<ContactCouple> couples);
   void locate(std::size_t first);
-  void evaluate_looks();
-  void evaluate_point(const PointLooks& looks, std::size_t end);
+  void evaluate_located();
+  void evaluate_point(const LocatedPoint& located_point, std::size_t end);
   void bridge_gaps(Index point);
   [[nodiscard]] const Nearby* facing_more(const ContactPoint& point, Index candidate) const;
   void prefer_facing_sides(const ContactPoint& point, std::size_t inside);
@@ -259,8 +259,8 @@ class Pass {
   ContactWork& work_;
   ContactKernels kernels_;
   const FaceRule& rule_;
-  std::vector<PointLooks> points_;     ///< a few, to be evaluated next
-  std::vector<Look> looks_;            ///< of these
+  std::vector<LocatedPoint> points_;   ///< a few, to be evaluated next
+  std::vector<Located> located_;       ///< of these
   std::vector<Candidate> candidates_;  ///< of the point at hand, ascending
   std::vector<Nearby> inside_;         ///< of the same point, ascending: couples whose contactor holds it
   std::vector<Nearby> beside_;         ///< likewise: it lies just outside
@@ -269,7 +269,7 @@ class Pass {
   ExactSum ignored_;                   ///< what other ranks account
 
   // Couples of the points before that are evaluated side by side, and all forces from the first of these on.
-  LookBlock look_block_;
+  LocateBlock locate_block_;
   ContactBlock block_;
   std::array<Lane, kLanes> lanes_;
   std::size_t filled_ = 0;
