@@ -57,7 +57,7 @@ Catalyst2Library::Catalyst2Library() {
   void* library = nullptr;
   std::string reasons;
   for (const fs::path& file : candidates()) {
-    // Global: libcatalyst looks for its own functions there to find the implementations beside itself.
+    // Global: libcatalyst searches its own functions there to find the implementations beside itself.
     library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
     file_ = file;
     if (library != nullptr) break;

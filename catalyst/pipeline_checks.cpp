@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::int32_t kMostPipelines = 32;
 
-/// "" when files can be made in the folder; permissions alone do not tell (root, read-only and full file systems).
+/// "" when files can be made in the folder; permissions alone are not sufficient (root, read-only and full file
+/// systems).
 std::string folder_problem(const char* folder) {
   const std::string path = folder == nullptr ? "" : folder;
   if (path.empty() || path[0] != '/')

@@ -20,7 +20,7 @@
 namespace breccia::gui {
 namespace {
 
-constexpr unsigned long kPollInterval = 500;  // ms between two looks of the worker
+constexpr unsigned long kPollInterval = 500;  // ms between two passes of the worker
 constexpr int kPatience = 5000;               // ms for the lock of the file
 
 QJsonObject json_of(const QueuedRun& run) {

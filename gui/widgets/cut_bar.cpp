@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kTicks = 500;  // of the slider
 
-/// A place with few digits, closer to the given one than the slider tells apart.
+/// A place with few digits, closer to the given one than the resolution of the slider.
 double short_place(double place, const std::array<double, 2>& extent) {
   if (!(extent[1] > extent[0])) return place;
   const double step = std::pow(10, std::floor(std::log10((extent[1] - extent[0]) / kTicks)));

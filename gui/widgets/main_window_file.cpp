@@ -103,7 +103,7 @@ void MainWindow::look_at_disk() {
                document_.is_open() && !document_.is_on_disk() ? document_.file() : QString());
 }
 
-/// Whether what is run is what the window shows. A case with edits of its own is saved, which asks by itself.
+/// Whether the case on disk is the one in the window. An edited case is saved, with its own dialog.
 bool MainWindow::agrees_with_disk() {
   if (!document_.is_open() || document_.modified() || document_.is_on_disk()) return true;
   return QFileInfo::exists(document_.file()) ? settle_with_disk() : save();
@@ -143,7 +143,7 @@ void MainWindow::claim_case() {
   claimed_ = lock;
   QString other;
   if (claim_ != nullptr && !claim_->isLocked()) {
-    claim_->setStaleLockTime(0);  // however long it is open; that of a process that is gone does not count
+    claim_->setStaleLockTime(0);  // no time limit; a lock of a process that has ended does not count
     qint64 process = 0;
     QString host, program;
     if (!claim_->tryLock(0) && claim_->error() == QLockFile::LockFailedError &&

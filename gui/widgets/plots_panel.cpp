@@ -153,14 +153,14 @@ void PlotsPanel::ticked(QTreeWidgetItem* item) {
   draw();
 }
 
-/// A curve that nobody has asked for is drawn once it is neither zero throughout nor mere rounding.
+/// A curve that is not selected by the user is drawn once it is neither zero throughout nor mere rounding.
 bool PlotsPanel::is_drawn(int column) const {
   const QString& name = history_->columns()[column];
   if (ticks_.contains(name)) return ticks_.value(name);
   return is_first_choice(name) && history_->largest(column) > 0 && !round_off_[static_cast<std::size_t>(column)];
 }
 
-/// Curves that are mere rounding say so; those of them that nobody has ticked are drawn once they are.
+/// Curves that are mere rounding are marked; those not ticked by the user are drawn once they are more.
 void PlotsPanel::tell_round_off() {
   round_off_ = are_round_off(*history_);
   const QSignalBlocker quiet(list_);

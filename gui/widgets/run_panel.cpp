@@ -31,7 +31,7 @@ QString duration_words(double seconds) {
 }
 
 QString to_go_words(const RunStatus& status) {
-  constexpr double kShare = 0.01, kWall = 20;  // s; the first steps, with reading and meshing, tell nothing of the rest
+  constexpr double kShare = 0.01, kWall = 20;  // s; the first steps, with reading and meshing, are not representative
   return status.share < kShare && status.wall < kWall ? RunPanel::tr("not known yet") : duration_words(status.eta);
 }
 
@@ -157,7 +157,7 @@ void RunPanel::make_ranks(QVBoxLayout& column) {
   connect(oversubscribe_, &QCheckBox::toggled, this, [this] { set_problems(problems_); });
 }
 
-/// A run that goes on is seen without scrolling; what was estimated before it stands below.
+/// A run in progress is visible without scrolling; its former estimate is below.
 void RunPanel::make_buttons(QVBoxLayout& column) {
   auto* grid = new QGridLayout;
   grid->addWidget(run_, 0, 0);

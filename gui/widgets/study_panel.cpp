@@ -24,7 +24,7 @@ constexpr int kWidestBox = 300;  // pixels
 /// Gives it room for its words. Qt does not work out the least width of a box anew when words are added.
 void fit(QComboBox& box) { box.setMinimumWidth(std::min(kWidestBox, box.sizeHint().width())); }
 
-/// When a study was started, which is what tells those of one case apart.
+/// Start of a study, which distinguishes those of one case.
 QString words_of_study(const QString& folder) {
   static const QRegularExpression started(R"((\d{4})(\d\d)(\d\d)-(\d\d)(\d\d)(\d\d)(-\d+)?-study$)");
   const QString name = QFileInfo(folder).fileName();

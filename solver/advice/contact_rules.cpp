@@ -45,7 +45,7 @@ std::vector<double> contact_lengths(const Model& model) {
   return length;
 }
 
-/// Something is driven while something else is held or driven as well.
+/// A group is driven while another one is constrained or driven as well.
 bool is_pressed(const case_::Case& input) {
   return std::any_of(input.stages.begin(), input.stages.end(), [](const case_::Stage& stage) {
     return std::any_of(stage.constraints.begin(), stage.constraints.end(), [&](const case_::Constraint& driven) {

@@ -27,7 +27,7 @@ constexpr double kWorthRefining = 20;
 
 bool beyond_refining(double h, double zone) { return h > kWorthRefining * kWanted * zone; }
 
-/// What depends on the mesh, and what to do: one aim, whatever the elements are.
+/// States the dependence on the mesh and the remedy: the same target size for all element sizes.
 /// @param refinement  to a third of the process zone;  @param larger  they are larger than all of it
 std::string refine(double refinement, bool larger, bool given) {
   const std::string by = fmt::format("Refine by {:.2g}, to a third of that zone,", refinement);

@@ -16,7 +16,7 @@
 namespace breccia {
 namespace {
 
-/// Whether anything that the case prescribes acts along an axis, but for what is held.
+/// Whether loads or motions of the case act along an axis, fixed nodes excepted.
 bool acts_along(const case_::Case& input, const Model& model, std::size_t axis) {
   const auto i = static_cast<Eigen::Index>(axis);
   const auto moves = [&](const case_::InitialVelocity& v) {
@@ -136,7 +136,7 @@ std::string small_sphere(const Model& model) {
   const SphericalBoundary& sphere = *model.contact.sphere;
   double furthest = 0;
   Index outside = 0, worst = -1;
-  bool around_something = false;  // else unmeant_advice tells
+  bool around_something = false;  // else unmeant_advice reports it
   for (Index e = 0; e < model.mesh.num_elements(); ++e) {
     double distance = 0;
     Vec3 centre = Vec3::Zero();
@@ -155,7 +155,7 @@ std::string small_sphere(const Model& model) {
       outside, worst, furthest - sphere.radius, sphere.radius, furthest);
 }
 
-/// A file without a unit whose numbers look like millimetres.
+/// A file without a unit whose numbers appear to be millimetres.
 std::string unit_of_lengths(const case_::Case& input, const Model& model) {
   constexpr double kLarge = 10;  // m; parts that break are drawn in mm or in m
   if (!states_no_unit(geometry_file(input.mesh.file)) || input.mesh.scale != 1) return {};

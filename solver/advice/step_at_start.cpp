@@ -10,7 +10,7 @@
 namespace breccia {
 namespace {
 
-/// Steps between two looks at the limit, as StageSteps takes them.
+/// Steps between two evaluations of the limit, as in StageSteps.
 constexpr double kStepsAhead = 100;
 
 }  // namespace

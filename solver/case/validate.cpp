@@ -23,7 +23,7 @@
 namespace breccia::case_ {
 namespace {
 
-constexpr const char* unread = "";  // a group whose name was wrong, which has been told
+constexpr const char* unread = "";  // a group whose name was wrong, already reported
 
 constexpr std::int64_t most_domains = 1000000;
 
@@ -165,7 +165,7 @@ class Validator {
                 "a [[joint]] with group = \"" + m.group + "\", or joints = \"unbreakable\" or \"none\"", m.group);
   }
 
-  /// Keys of one kind say nothing in another: what was meant to act would not.
+  /// Keys of one kind have no effect in another, so they are refused.
   void softening_of_another_kind(const Joint& j) {
     const Joint usual;
     const auto refuse = [&](const char* name, const char* kind) {
@@ -315,8 +315,8 @@ class Validator {
                     ", which damps the waves that are to leave",
                 "one of them; material.viscosity may damp as well", "");
       if (stage.end != 0) start = stage.end;
-      // An axis held twice in one group has no answer; axes of different groups that share nodes are seen with the
-      // mesh.
+      // An axis constrained twice in one group is ambiguous; axes of different groups that share nodes are checked with
+      // the mesh.
       std::set<std::pair<std::string, std::size_t>> held;
       for (const Constraint& constraint : stage.constraints)
         for (std::size_t axis = 0; axis < 3; ++axis)

@@ -12,7 +12,7 @@ namespace {
 
 std::string rounded(double value) { return number_text(value, 4); }
 
-/// What the parts of a function amount to at a time, whatever their signs.
+/// Sum of the absolute values of the parts of a function at a time.
 double parts_of(const TimeFunction& f, double time) {
   double sum = std::abs(f.constant) + std::abs(f.linear * time);
   for (const TimeFunction::Sine& s : f.sines) sum += std::abs(s.amplitude);

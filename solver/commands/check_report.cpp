@@ -34,7 +34,7 @@
 namespace breccia {
 namespace {
 
-/// Share of the stable step with which steps are timed: nothing moves, whatever step is given.
+/// Share of the stable step with which steps are timed: nothing moves, for any given step.
 constexpr double kShort = 1e-3;
 
 /// Seconds of a core that a step takes here at rest, on a scratch copy: what other programs take is not counted.

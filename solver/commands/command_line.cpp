@@ -143,7 +143,7 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
   return printable(what) + "; `" + command + " --help` lists the allowed ones";
 }
 
-/// A first word that is no command, told before anything else of the line is read. @return  empty: all is well
+/// Message for a first word that is no command, before the rest of the line is parsed. @return  empty: all is well
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return {};
   std::vector<std::string> commands;

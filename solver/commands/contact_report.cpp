@@ -30,7 +30,7 @@ GroupSizes sizes_of(const Model& model) {
   return sizes;
 }
 
-/// s, by which friction on a group is late at most, 0: there is none. @param extent  m, (groups) of the largest body
+/// s, largest delay of friction on a group, 0: none. @param extent  m, (groups) of the largest body
 double longest_delay(const Model& model, std::size_t group, const std::vector<double>& extent) {
   double longest = 0;
   for (std::size_t other = 0; other < extent.size(); ++other) {

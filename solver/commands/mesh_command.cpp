@@ -33,7 +33,7 @@ case_::Case case_of_geometry(const MeshCommand& asked) {
   return input;
 }
 
-/// Not a case: of a kind that is read, or of one about which there is something to say.
+/// Not a case: of a supported kind, or of one with a specific message.
 bool is_geometry(const std::filesystem::path& file) {
   return geometry_file(file) != GeometryFile::unknown || !remedy_for(file).empty();
 }
@@ -60,7 +60,7 @@ void refuse_frames_of_run(const std::filesystem::path& folder) {
     throw OutputError(Problem{folder.string(), 0, "", "these are the frames of a run", "another folder (-o)", ""});
 }
 
-/// A geometry that is given is told of without a case, which may have mistakes elsewhere.
+/// A given geometry is reported without a case, which may have other errors.
 std::string parameters_of(const MeshCommand& asked) {
   if (geometry_file(asked.case_file) != GeometryFile::unknown) return parameters_json(asked.case_file);
   return parameters_json(

@@ -237,7 +237,7 @@ class Race {
         {fmt::format("lap {} of {}: {}", laps_ + 1, all, racer.name()), done / all, seconds_since(started_)});
   }
 
-  /// Results never depend on how contact is looked for.
+  /// Results never depend on the contact search.
   void check_state(const Racer& racer, const std::string& hash) {
     if (result_.state_hash.empty()) {
       first_ = racer.name();

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What may differ in a run that goes on: nothing that changes a result.
+/// Keys that may differ in a resumed run: those without effect on results.
 constexpr std::array<std::string_view, 4> kFreeKeys{"domains.", "detection.", "checkpoint.", "time.max_steps"};
 
 InputError refused(const std::string& where, const std::string& what, const std::string& allowed,
@@ -99,7 +99,7 @@ void check_later_end(double until) {
     throw refused("--until", "is out of range", "a time in s " + allowed.text(), quantity_text(until, "s"));
 }
 
-/// The case of the checkpoint, with a later end if that is asked for.
+/// The case of the checkpoint, with a later end if requested.
 case_::Case case_of(const Checkpoint& from, const fs::path& file, std::vector<std::string> overrides, double until,
                     ResumeOptions& options) {
   case_::Case input = case_::read_case_text(from.case_text, file, overrides, case_::MeshFile::may_be_gone);

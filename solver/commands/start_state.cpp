@@ -63,7 +63,7 @@ std::string words_of(const std::vector<Choice>& choices) {
   return words;
 }
 
-/// The checkpoint that is asked for by its time or step, from a folder.
+/// The checkpoint of the requested time or step, from a folder.
 fs::path chosen(const fs::path& case_file, const case_::Start& start, const fs::path& folder) {
   for (const CheckpointEntry& entry : checkpoints_in(folder)) {
     if (start.step > 0 && entry.step == start.step) return entry.file;

@@ -89,7 +89,7 @@ void judge_motion(Domain& domain) {
   const Clock& clock = domain.state.clock;
   const Signals& signals = domain.state.signals;
   const std::int64_t step = signals.fastest_step;
-  // Before the first step a division may already have told what was known then: not yet how long that step is.
+  // Before the first step a division may already have sent the speeds, but not yet the length of that step.
   if (clock.steps > 0 && step <= signals.step_motion.known_step) return;
   const bool last = step == clock.steps - 1;
   const double length = signals.fastest * (clock.steps == 0 ? clock.dt : last ? clock.dt_before : clock.dt_earlier);
@@ -101,7 +101,8 @@ void judge_motion_before_last(Domain& domain) {
   const StepMotion& motion = domain.state.signals.step_motion;
   const std::int64_t step = domain.state.clock.steps - 2;
   if (step <= motion.known_step) return;
-  judge(domain, step, step < 0 ? motion.own : motion.own_before);  // before the first step all go on as they began
+  judge(domain, step,
+        step < 0 ? motion.own : motion.own_before);  // before the first step all move at their initial velocities
 }
 
 namespace {

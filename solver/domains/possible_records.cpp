@@ -89,7 +89,7 @@ void demand_possible(const std::filesystem::path& file, std::span<const std::byt
   bool possible = false;
   try {
     possible = are_possible(records, unpack_whole(whole_model));
-  } catch (const std::exception&) {  // the bytes end too early, or ask for more than there is
+  } catch (const std::exception&) {  // the bytes end too early, or state a larger size
   }
   if (!possible) refuse(file, "its numbers point to what its model does not have");
 }

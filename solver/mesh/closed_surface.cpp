@@ -199,7 +199,7 @@ class Surfaces {
             corner(t, 0).cwiseMax(corner(t, 1)).cwiseMax(corner(t, 2)), t};
   }
 
-  /// An edge of one triangle goes through the inside of another: looked for among those whose boxes meet.
+  /// An edge of one triangle goes through the inside of another: searched among those whose boxes meet.
   [[nodiscard]] std::string crossing() const {
     std::vector<Box> boxes;
     Vec3 lower = box_of(0).lower, upper = box_of(0).upper;

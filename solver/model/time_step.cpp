@@ -10,7 +10,7 @@
 namespace breccia {
 namespace {
 
-/// Joints that the sweep does not look after, at their stiffest.
+/// Joints that the sweep does not evaluate, at their stiffest.
 std::vector<JointStiffness> other_joints(const Model& model) {
   std::vector<JointStiffness> joints;
   for (const ModelJoint& joint : model.joints) {

@@ -26,7 +26,7 @@ Fragments fragments_of_rank(const Domain& domain) {
 
 constexpr GlobalId kNotSent = -1;
 
-/// Every rank tells its neighbours what it calls those of their elements that it knows to hang together with others.
+/// Every rank sends its neighbours its labels of those of their elements that are connected to others.
 std::vector<Meeting> meetings(const Domain& domain, const Fragments& fragments) {
   std::vector<Communicator::ListOf<GlobalId>> lists;
   for (const SharedSlots& shared : domain.exchange.shared()) {

@@ -7,7 +7,7 @@
 namespace breccia {
 namespace {
 
-/// All are put in order again when as many have come or gone as a quarter of them, or so many of a short list.
+/// All are sorted again when a quarter of them was added or removed, or so many of a short list.
 constexpr std::size_t kSortFraction = 4, kLeastChanges = 64;
 
 std::size_t block_of(Index place) { return at(place / kLanes); }

@@ -44,7 +44,7 @@ void read_history(const RunFolder& run, RunRecord& record) {
   if (record.history.rows() == 0) record.flaws.emplace_back("history.csv has no line yet.");
 }
 
-/// Names that are told for all bodies, in their order; else none.
+/// Names if given for all bodies, in their order; else none.
 void read_bodies(const RunFolder& run, RunRecord& record) {
   const std::optional<std::string> text = regular_content(run.bodies());
   if (!text) return;
@@ -96,7 +96,7 @@ void flatten(const Json& node, const std::string& path, RunRecord& record) {
   }
 }
 
-/// An object, or null with a flaw told. @param needed  its absence is a flaw
+/// An object, or null with a reported flaw. @param needed  its absence is a flaw
 Json object_in(const fs::path& file, bool needed, RunRecord& record) {
   const std::optional<std::string> text = regular_content(file);
   if (!text) {
@@ -186,7 +186,7 @@ void read_case_of(const RunFolder& run, RunRecord& record) {
   }
 }
 
-/// A run that was killed together with who watches over it still says that it goes on.
+/// The status of a run that was killed together with its watch is still "running".
 void settle_state(RunRecord& record) {
   if (record.state.empty()) record.state = "unknown";
   const bool alive = record.state == "running" || record.state == "paused";

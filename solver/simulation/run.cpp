@@ -155,7 +155,7 @@ class Runner {
       take_commands();
       steps.look();
       tell_of_step(steps);
-      look_at_state();  // a script may ask for the end: this step is the last one then
+      look_at_state();  // a script may request the end: this step is the last one then
       const bool end = s + 1 == input_.stages.size() && steps.at_last();
       const bool last = end || stop_commanded_ || output_.steps_done() + 1 == input_.time.max_steps ||
                         clock().time + clock().dt > options_.until - 0.5 * clock().dt;
@@ -165,7 +165,7 @@ class Runner {
     }
     if (checkpoints_ && !checkpoints_->is_of_now()) checkpoints_->begin(position());
     steps_ = nullptr;
-    // Behind the checkpoint: a run that goes on from it does not have this line.
+    // After the checkpoint: a run resumed from it does not have this line.
     if (status_ != "complete" && sampled_without_line_) take_line(*sampled_without_line_);
   }
 
@@ -216,14 +216,14 @@ class Runner {
     if (checkpoints_) checkpoints_->confirm(output_.sound().step);
   }
 
-  /// Between two steps, where a run that goes on from the checkpoint begins.
+  /// Between two steps, where a run resumed from the checkpoint begins.
   void look_at_checkpoints() {
     if (!checkpoints_) return;
     checkpoints_->look();
     if (checkpoints_->due()) begin_checkpoint();
   }
 
-  /// When a run ends with an error: the last sound state. A checkpoint that cannot be written is not what is told then.
+  /// When a run ends with an error: the last sound state. A failure to write it is not reported then.
   void complete_checkpoint() {
     if (!checkpoints_) return;
     try {
@@ -267,7 +267,7 @@ class Runner {
       output_.tell_event("control", text, good, command.id);
   }
 
-  /// What this rank has to tell the others.
+  /// Signals of this rank to the others.
   StepSignals signals() {
     StepSignals signals{.stop = stop_requested};
     if (control_.asks()) signals.orders |= kControlOrder;
@@ -340,7 +340,7 @@ class Runner {
     return {};
   }
 
-  /// Waits between two steps until a command lets the run go on or ends it.
+  /// Waits between two steps until a command resumes or ends the run.
   void stay_paused() {
     communicator_.set_phase("pause");
     while (paused_) {
@@ -376,7 +376,7 @@ class Runner {
   std::optional<RunCheckpoints> checkpoints_;
   std::optional<double> sampled_without_line_;  ///< s, of the last step, where it is so
   std::vector<Command> wait_for_checkpoint_;    ///< their answers do
-  std::optional<RunPosition> from_;             ///< the run goes on from here
+  std::optional<RunPosition> from_;             ///< the run continues from here
   ResumeOptions options_;
   std::string start_words_;      ///< whose state the run starts from; empty: at rest
   StageSteps* steps_ = nullptr;  ///< of the present stage

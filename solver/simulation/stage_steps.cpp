@@ -91,7 +91,7 @@ void StageSteps::judge(double stable) {
   const Clock& clock = partition_.state().clock;
   const double share = stable / at_rest_;
   const bool ends = share < kSmallestStep;
-  // Where a run begins `check` has told it.
+  // At the start of a run `check` has reported it.
   const bool fell = clock.steps > 0 && tenths(share) > tenths(clock.dt / (input_.time.safety * at_rest_));
   if (!ends && !fell) return;
   const double rest = input_.stages.back().end - clock.time;

@@ -64,7 +64,7 @@ Problem unexplained(const GmshSource& source) {
       ""};
 }
 
-/// What gmsh says, in its form "'file', line 12: what" with the place taken out where it stands there.
+/// A message of gmsh; the place is extracted from its form "'file', line 12: what".
 Problem problem_of(const GmshSource& source, const std::string& message) {
   const std::string mark = "', line ";
   const std::size_t mark_at = message.find(mark), digits = mark_at + mark.size();

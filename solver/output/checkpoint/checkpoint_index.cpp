@@ -27,7 +27,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are stored as
 constexpr std::array<const char*, 6> kTypes{"float64", "float32", "int64", "int32", "int8", "uint8"};
 /// More than the text of a column, a part and the rest of the index takes, and of the rows and checksum of a rank.
 constexpr std::size_t kTextOfColumn = 256, kTextOfRank = 64;
-/// Bytes of an index at most: what a file may ask to be read before anything of it is known to be sound.
+/// Largest index, bytes: limit of what is read of a file before it is verified.
 constexpr std::uint64_t kLargestIndex = std::uint64_t{1} << 30;
 
 constexpr std::string_view kHeaderFormat =

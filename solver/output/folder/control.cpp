@@ -26,9 +26,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestRequest = 1 << 16;  // bytes; what is longer is cut
-constexpr std::size_t kLongestLine = 200;         // bytes; what is longer is no command, and told as far as this
+constexpr std::size_t kLongestLine = 200;         // bytes; longer lines are no commands, and reported truncated
 constexpr std::size_t kMostLines = 100;           // of one request, each of which is answered; the rest is not
-constexpr auto kPollInterval = std::chrono::milliseconds(20);  // between two looks for an answer
+constexpr auto kPollInterval = std::chrono::milliseconds(20);  // between two polls for an answer
 
 /// Takes " id=WORD" off the end.
 std::string take_id(std::string& text) {
@@ -79,7 +79,7 @@ std::string content_of(const fs::path& path) {
   return text;
 }
 
-/// Puts a request where the run looks for it, once what others have put there has been taken: a link never replaces.
+/// Places a request for the run, once earlier ones have been removed: a link never replaces.
 /// @return  false when the time is over
 bool put_request(const fs::path& control, const std::string& line, const std::string& id,
                  const std::function<bool()>& in_time) {

@@ -25,8 +25,8 @@ void remove_stale(const fs::path& path) {
   if (!why.empty()) throw output_error(path, "cannot remove this file of the run so far: " + why);
 }
 
-/// The lines that a run goes on from, as long as they were when the checkpoint was written. Looked at before anything
-/// is changed.
+/// The lines from which a run continues, of the length when the checkpoint was written. Checked before anything is
+/// changed.
 void demand_lines(const fs::path& file, std::int64_t bytes, const Checkpoint& from) {
   std::error_code error;
   const bool there = fs::is_regular_file(fs::symlink_status(file, error));

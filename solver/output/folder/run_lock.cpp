@@ -23,10 +23,10 @@
 namespace breccia {
 namespace {
 
-constexpr char kErrorReported = '\1';   // from the run to its watch: an error has been told
+constexpr char kErrorReported = '\1';   // from the run to its watch: an error has been reported
 constexpr std::size_t kTail = 1 << 14;  // bytes at the end of status.jsonl that hold its last line
 
-/// What the lock file says of its owner: "process 17 on host, since TIME".
+/// Owner of the lock file: "process 17 on host, since TIME".
 std::string owner_in(const Descriptor& file) {
   std::array<char, 300> text{};
   const ssize_t got = ::pread(file.get(), text.data(), text.size(), 0);
@@ -55,7 +55,7 @@ bool no_locks_here(int error) { return error == ENOLCK || error == EOPNOTSUPP ||
 
 bool says(std::string_view line, std::string_view what) { return line.find(what) != std::string_view::npos; }
 
-/// Appends the last word to a status file whose run is gone. The caller holds the lock.
+/// Appends the final status of a run that has ended. The caller has the lock.
 void conclude(const char* status, bool failed) {
   const int file = ::open(status, O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (file < 0) return;
@@ -71,7 +71,7 @@ void conclude(const char* status, bool failed) {
   if (got >= 0) {
     std::string_view text(tail.data(), static_cast<std::size_t>(got));
     const bool whole = text.empty() || text.back() == '\n';
-    if (!whole) text = text.substr(0, text.rfind('\n') + 1);  // a line that was cut off says nothing
+    if (!whole) text = text.substr(0, text.rfind('\n') + 1);  // a truncated line is ignored
     const std::size_t last = text.rfind("{\"state\":");
     const std::string_view state = last == std::string_view::npos ? "" : text.substr(last, 24);
     // Without a line: it has not come to its first step.
@@ -111,7 +111,7 @@ void conclude(const char* status, bool failed) {
   if (second_end == nullptr) ::_exit(0);
   const bool failed = second_end + 1 < received.data() + size && second_end[1] == kErrorReported;
   const int lock = ::open(received.data(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-  // A process that ends lets go of the pipe and of the lock one after the other. If the lock stays taken, another run
+  // A process that ends closes the pipe and releases the lock one after the other. If the lock stays taken, another run
   // has begun in this folder, and the file is that run's.
   bool ours = false;
   for (int look = 0; lock >= 0 && !ours && look < 200; ++look) {

@@ -14,7 +14,7 @@ namespace {
 
 /// Parts of an execution that round-off may hide.
 constexpr double kRoundOff = 1e-9;
-/// The share of a plan may pass the budget by so much before it is said: it counts whole executions.
+/// Ratio of the planned share to the budget from which it is reported: the plan has whole executions.
 constexpr double kReportedRatio = 1.2;
 
 std::int64_t whole(double number) { return static_cast<std::int64_t>(std::floor(number + kRoundOff)); }

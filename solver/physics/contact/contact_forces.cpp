@@ -20,7 +20,7 @@ namespace contact_pass {
 
 namespace {
 
-/// Couples that are looked at before the first of their points is evaluated: few, so that all is still at hand.
+/// Couples that are located before the first of their points is evaluated: few, so that they remain in the cache.
 constexpr std::size_t kMostLocated = 64;
 
 }  // namespace
@@ -86,7 +86,7 @@ PreparedTetra Pass::prepare_element(Index slot) const {
   return prepare(load_corners(local_, state_.position.data(), slot), local_.volume[static_cast<std::size_t>(slot)]);
 }
 
-/// Prepares the contactor where nobody has yet in this step.
+/// Prepares the contactor if it is not prepared yet in this step.
 const PreparedTetra& Pass::prepare_contactor(Index contactor) {
   const auto place = static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)]);
   if (contact_.prepared_in[place] != contact_.calls) {
@@ -186,8 +186,7 @@ double Pass::go_to(const ContactLaw& law, double scale, double length, double g,
 double Pass::follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h) {
   const double lost = go_to(law, scale, length, candidate.g_before, h);
   if (candidate.g == candidate.g_before) return lost;
-  // The offset takes up the field's change: what rises makes no force, what sinks takes force away once the offset is
-  // gone.
+  // The offset follows the change of the field: a rise adds no force, a fall reduces the force once the offset is 0.
   const double stored = normal_law::stored(law, h.d, h.d_max);
   h.offset = std::max(0.0, h.offset + (candidate.g - candidate.g_before));
   std::ignore = go_to(law, scale, length, candidate.g, h);
@@ -224,7 +223,7 @@ Pass::Before Pass::one_step_ago(const ContactPoint& point, Index contactor) cons
 void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const {
   const Vec3& motion = motion_of(point, candidate);
   if (motion == Vec3::Zero()) {
-    // A neighbour that has taken the point over beside an edge goes on with the same force.
+    // A neighbour that now has the point beside an edge continues with the same force.
     if (h.contactor != candidate.contactor) h.offset = candidate.g_before - h.d * length;
     return;
   }

@@ -3,8 +3,7 @@
 #include "physics/contact/contact_field.hpp"
 #include "physics/contact/contact_pass.hpp"
 
-/// Couples that go on as in the last step, nearly all of those of debris at rest, are evaluated side by side
-/// (contact_block.hpp).
+/// Couples in continued contact, nearly all of those of debris at rest, are evaluated side by side (contact_block.hpp).
 namespace breccia::contact_pass {
 
 namespace {
@@ -20,7 +19,7 @@ Vec3 take(const ContactRow (&rows)[3], std::size_t lane) { return {rows[0][lane]
 
 }  // namespace
 
-/// Looks where a point is in its contactors.
+/// Locates a point in its contactors.
 void Pass::look_at(PointCouples& point, std::span<ContactCouple> couples) {
   const Vec3 x = at_point(rule_, point_at(point.point), state_.position.data());
   points_.push_back({&point, couples, located_.size()});
@@ -48,7 +47,7 @@ void Pass::locate(std::size_t first) {
   }
 }
 
-/// Evaluates the points that have been looked at.
+/// Evaluates the located points.
 void Pass::evaluate_located() {
   if (const std::size_t rest = located_.size() % kLanes; rest > 0) locate(located_.size() - rest);
   for (std::size_t i = 0; i < points_.size(); ++i)
@@ -151,7 +150,7 @@ void Pass::fill_lane(const ContactLaw& law, double length, const TouchingCouple&
   block_.delayed_age[lane] = old.delayed.age;
   block_.delayed_halfway[lane] = old.delayed.halfway;
   block_.gained[lane] = old.gained;
-  block_.gained_before[lane] = old.gained_before + 0.0;  // as touch() adds what it takes over: no negative zero
+  block_.gained_before[lane] = old.gained_before + 0.0;  // as touch() adds the former gain: no negative zero
 }
 
 /// Evaluates the block, and adds all forces in the order in which they came.
