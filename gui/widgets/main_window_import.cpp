@@ -32,7 +32,7 @@ void MainWindow::join_import() {
   });
 }
 
-/// The solver has read it: the user is asked for the unit if the file does not state it.
+/// The solver has read it: a dialog requests the unit if the file does not state it.
 void MainWindow::take_geometry(const QJsonObject& mesh) {
   busy_->clear();
   double metres = 1;
