@@ -26,7 +26,7 @@ int Catalyst2Adaptor::status_of(const std::string& what, Call&& call) {
   } catch (const std::exception& error) {
     throw PipelineError(error.what());
   } catch (...) {
-    throw PipelineError("it has thrown what is no exception");
+    throw PipelineError("it has thrown an object that is no exception");
   }
 }
 

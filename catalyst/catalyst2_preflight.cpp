@@ -18,7 +18,7 @@ void demand_possible(const PipelineChoice& choice, bool is_paraview) {
                     "them, so that none can have fields of its own; that needs ") +
         kOtherBackend);
   if (!choice.selection.point_fields.empty())
-    throw PipelineError(std::string("values at points, point_data, are not handed to Catalyst 2; that needs ") +
+    throw PipelineError(std::string("values at points, point_data, are not passed to Catalyst 2; use ") +
                         kOtherBackend);
   switch (choice.kind) {
     case PipelineKind::probes:

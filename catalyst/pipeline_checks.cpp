@@ -67,7 +67,7 @@ void check_parameters(const PipelineChoice& choice, const KnownParameters& known
         problems.push_back(begin + "number, or a text with a unit; given: \"" + one_line(*value.text) + "\"");
       continue;
     }
-    std::string text = choice.name + ": knows no parameter '" + name + "'";
+    std::string text = choice.name + ": has no parameter '" + name + "'";
     if (known.empty()) text += ", it has none";
     const char* separator = "; allowed: ";
     for (const std::string& other : nearest_first(name, known)) {

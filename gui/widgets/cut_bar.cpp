@@ -84,7 +84,7 @@ void CutBar::make_fields() {
   place_->setMaximumWidth(110);
   other_->setObjectName("cut_other");
   other_->setAccessibleName(tr("Show the other side of the cut"));
-  other_->setToolTip(tr("Hide what lies before the cut instead of what lies beyond it"));
+  other_->setToolTip(tr("Hide the front side of the cut instead of the back side"));
 }
 
 void CutBar::set_model(std::function<std::array<double, 2>(const Vector&)> extent, std::function<Vector()> look) {

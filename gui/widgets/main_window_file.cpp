@@ -113,7 +113,7 @@ bool MainWindow::settle_with_disk() {
   QMessageBox box(QMessageBox::Question, tr("Breccia"),
                   tr("Another program has changed\n%1\nsince it was opened.").arg(document_.file()),
                   QMessageBox::Open | QMessageBox::Save | QMessageBox::Cancel, this);
-  box.setInformativeText(tr("What it has otherwise than this window (undo brings back what is here now):\n%1")
+  box.setInformativeText(tr("Its differences from this window (undo restores the present text):\n%1")
                              .arg(differences_words(document_.text(), content_of(document_.file()))));
   box.button(QMessageBox::Open)->setText(tr("&Take that over"));
   box.button(QMessageBox::Save)->setText(tr("&Write over it"));
@@ -150,7 +150,10 @@ void MainWindow::claim_case() {
         claim_->getLockInfo(&process, &host, &program))
       other = tr("process %1 on %2 has %3 open").arg(process).arg(host, document_.file());
   }
-  tell_trouble("elsewhere", tr("This case is open in another window as well, and what is saved last stays"), other);
+  tell_trouble("elsewhere",
+               tr("This case is open in another window as well; the last save overwrites earlier "
+                  "ones"),
+               other);
 }
 
 }  // namespace breccia::gui

@@ -103,8 +103,8 @@ bool MainWindow::resumes_as_it_was_run() {
       !was_run_with_another(record.folder, document_.text()))
     return true;
   QMessageBox box(QMessageBox::Question, tr("Breccia"),
-                  tr("%1\nhas been edited since this run was started. What is resumed is the case as it was run, "
-                     "without these edits. A new run has them, and begins at the start.")
+                  tr("%1\nhas been edited since this run was started. Resuming uses the case without these edits. A "
+                     "new run uses them, from the start.")
                       .arg(document_.file()),
                   QMessageBox::Yes | QMessageBox::No | QMessageBox::Cancel, this);
   box.button(QMessageBox::Yes)->setText(tr("Resume as it was &run"));

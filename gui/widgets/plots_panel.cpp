@@ -63,7 +63,7 @@ PlotsPanel::PlotsPanel(QWidget* parent)
   too_many_->hide();
   list_->setObjectName("curves");
   list_->setAccessibleName(tr("Curves"));
-  list_->setToolTip(tr("Which curves are drawn, in a chart for each unit (space ticks the one in hand)"));
+  list_->setToolTip(tr("Curves to draw, in a chart for each unit (space ticks the current one)"));
   list_->header()->hide();
   list_->setMinimumWidth(120);
   auto* row = new QSplitter;
@@ -171,7 +171,7 @@ void PlotsPanel::tell_round_off() {
     const QString name = parts_of(column).name, words = rounding ? tr("%1 (only rounding)").arg(name) : name;
     if ((*it)->text(0) == words) continue;
     (*it)->setText(0, words);
-    (*it)->setToolTip(0, rounding ? tr("%1: what rounding leaves of nothing; a tick draws it").arg(column) : column);
+    (*it)->setToolTip(0, rounding ? tr("%1: zero except for rounding; tick to draw it").arg(column) : column);
     if (!ticks_.contains(column))
       (*it)->setCheckState(0, is_first_choice(column) && !rounding ? Qt::Checked : Qt::Unchecked);
   }

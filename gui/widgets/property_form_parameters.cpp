@@ -17,7 +17,7 @@ QString tip_of(const ParameterRow& row) {
   const auto line = [](const QString& name, const QString& text) {
     return text.isEmpty() ? QString() : QString("<br><i>%1</i> %2").arg(name, text.toHtmlEscaped());
   };
-  const QString words = row.is_known ? row.words : PropertyForm::tr("The geometry knows no such number.");
+  const QString words = row.is_known ? row.words : PropertyForm::tr("The geometry has no such number.");
   return "<b>" + row.path().toHtmlEscaped() + "</b><br>" + words.toHtmlEscaped() +
          line(PropertyForm::tr("Unit:"), PropertyForm::tr("that in which the geometry counts; with a unit, in SI")) +
          line(PropertyForm::tr("Default:"), row.fallback);

@@ -80,8 +80,7 @@ void QueuePanel::make_buttons(QHBoxLayout& row) {
   cores_->setRange(1, 4096);
   cores_->setObjectName("queue_cores");
   cores_->setAccessibleName(tr("Cores for runs"));
-  cores_->setToolTip(
-      tr("Ranks that may run at a time, those of runs started by hand among them; 1: one run after another"));
+  cores_->setToolTip(tr("Largest number of ranks in use, runs started by hand included; 1: one run after another"));
   held_->setObjectName("queue_hold");
   held_->setAccessibleName(tr("Hold the queue"));
   held_->setToolTip(tr("No further runs are started; those in progress continue"));

@@ -55,7 +55,7 @@ ResultsPanel::ResultsPanel(QWidget* parent)
       tr("Start ParaView with the frames of this run, bodies by stress and joints by time of failure"));
   picture_->setObjectName("save_picture");
   picture_->setAccessibleName(tr("Save picture"));
-  picture_->setToolTip(tr("Save what the 3D view shows as PNG"));
+  picture_->setToolTip(tr("Save the 3D view as PNG"));
   curves_->setObjectName("export_curves");
   curves_->setAccessibleName(tr("Export curves"));
   curves_->setToolTip(tr("Save the history of this run, and of those ticked in the table of runs, as CSV"));

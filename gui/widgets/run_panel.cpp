@@ -54,13 +54,13 @@ RunPanel::RunPanel(QWidget* parent)
       oversubscribe_(new QCheckBox(tr("Run more ranks than cores"))),
       run_(named_button(tr("R&un"), "run", tr("Save the case and start the run (F5)"))),
       queue_(named_button(tr("Add to &queue"), "queue_run",
-                          tr("Run the case as it is now when its turn comes and cores are free (Ctrl+Shift+F5)"))),
+                          tr("Queue the present case; it starts in order when cores are free (Ctrl+Shift+F5)"))),
       pause_(named_button(tr("&Pause"), "pause", tr("Wait between two steps; press again to continue"))),
       checkpoint_(named_button(tr("Check&point"), "checkpoint",
                                tr("Write the whole state now; the run can be resumed from there"))),
-      stop_(
-          named_button(tr("&Stop"), "stop",
-                       tr("End after the present step with everything written; what does not end in time is killed"))),
+      stop_(named_button(tr("&Stop"), "stop",
+                         tr("End after the present step with everything written; processes that do not end in time are "
+                            "killed"))),
       go_on_(named_button(tr("Resu&me from checkpoint"), "go_on",
                           tr("Continue the run, on as many ranks as are set above; results are bitwise identical"))),
       check_(named_button(tr("Chec&k"), "check", tr("Stable step, run time, memory and disk, with advice (F7)"))),
@@ -134,7 +134,9 @@ void RunPanel::make_ranks(QVBoxLayout& column) {
       tr("Processes that share the model; this machine has %1 cores, at most %2 ranks are started on each")
           .arg(cores)
           .arg(kMostOnACore));
-  warning_->setText(tr("⚠ more ranks than the %1 cores of this machine: they will be in each other's way").arg(cores));
+  warning_->setText(tr("⚠ more ranks than the %1 cores of this machine: oversubscription slows the run "
+                       "down")
+                        .arg(cores));
   warning_->setWordWrap(true);
   oversubscribe_->setObjectName("oversubscribe");
   oversubscribe_->setAccessibleName(oversubscribe_->text());

@@ -89,7 +89,7 @@ void StudyPanel::make_setup(QVBoxLayout& column) {
     connect(values_[i], &QLineEdit::textChanged, this, &StudyPanel::take_edit);
   }
   start_ = named_button(tr("Add to the queue"), "study_start",
-                        tr("Queue a run of the case, as it is now, for every combination of the values"));
+                        tr("Queue a run of the present case for every combination of the values"));
   words_ = new QLabel;
   words_->setWordWrap(true);
   words_->setObjectName("study_words");
@@ -110,7 +110,7 @@ void StudyPanel::make_results(QVBoxLayout& column) {
   column_ = new QComboBox;
   column_->setObjectName("study_column");
   column_->setAccessibleName(tr("Result"));
-  column_->setToolTip(tr("What is plotted and stands in the last column, with its unit, at the end of each run"));
+  column_->setToolTip(tr("Quantity of the plot and the last column, with its unit, at the end of each run"));
   column_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   column_->setMaximumWidth(kWidestBox);
   export_ = named_button(tr("Export CSV..."), "study_export", tr("All results of all runs as one table"));

@@ -45,7 +45,7 @@ View3D::View3D(QWidget* parent)
     colour_->addItem(QString::fromStdString(name), static_cast<int>(colouring));
   colour_->setObjectName("colour_by");
   colour_->setAccessibleName(tr("Colour by"));
-  colour_->setToolTip(tr("What the colours mean"));
+  colour_->setToolTip(tr("Quantity of the colours"));
   connect(colour_, qOverload<int>(&QComboBox::currentIndexChanged), this, &View3D::take_colouring);
   connect(colour_, qOverload<int>(&QComboBox::activated), this, [this] { choice().is_chosen = true; });
   make_joints_boxes();
@@ -91,7 +91,7 @@ void View3D::make_joints_boxes() {
   joints_->setObjectName("joints_by");
   joints_->setAccessibleName(tr("Joints by"));
   joints_->setToolTip(
-      tr("What the colours of joints mean; those that hold have no time of failure: grey. Hidden: none is drawn"));
+      tr("Quantity of the colours of joints; intact joints have no time of failure: grey. Hidden: none is drawn"));
   connect(joints_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     scene_.set_joint_colouring(static_cast<JointColouring>(joints_->currentData().toInt()));
     render();

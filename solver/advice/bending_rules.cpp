@@ -111,9 +111,9 @@ Sentences stiff_bending(const case_::Case& input, const Model& model) {
   for (const auto& [group, slender] : worst) {
     if (slender.share > kAcceptableShare) continue;
     advice.push_back(fmt::format(
-        "{} is slender and about {:.2g} elements thick. Linear tetrahedra are too stiff in bending: it bends by about "
-        "{:.0f} % of what it should. Where bending matters, use elements of a {:.0f}th of its thickness ({}) or less: "
-        "about {:.0f} %.",
+        "{} is slender and about {:.2g} elements thick. Linear tetrahedra are too stiff in bending: its deflection is "
+        "about {:.0f} % of the theoretical one. Where bending matters, use elements of a {:.0f}th of its thickness "
+        "({}) or less: about {:.0f} %.",
         model.mesh.volume_groups[at(group)], slender.layers, 100 * slender.share, kFine,
         quantity_text(slender.thickness / kFine, "m"), 100 * share_of_bending(1 / kFine)));
   }

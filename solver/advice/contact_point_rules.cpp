@@ -103,8 +103,8 @@ Sentences late_contact(const Model& model) {
     if (!(late[g] > 0) || !has_points(model, static_cast<Index>(g))) continue;
     advice.push_back(
         fmt::format("The surface of {} is curved or has blunt edges, and its contact points lie up to {} behind the "
-                    "corners of its faces: other bodies come so much nearer before they feel it. "
-                    "contact_points.per_face = 4 has points on corners.",
+                    "corners of its faces: contact starts only at this distance. contact_points.per_face = 4 has "
+                    "points on corners.",
                     model.mesh.volume_groups[g], quantity_text(late[g], "m")));
   }
   return advice;

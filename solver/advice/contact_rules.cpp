@@ -152,9 +152,8 @@ Sentences pressed_without_friction(const case_::Case& input, const Model& model)
   for (const case_::Contact& entry : input.contacts) {
     if (entry.friction > 0 || entry.interaction == case_::Interaction::none) continue;
     advice.push_back(fmt::format(
-        "Contact between \"{}\" and \"{}\" (line {}) has no friction: nothing but the unevenness of the meshes holds a "
-        "body sideways that is pressed between wider flat ones; it may slide, and be driven out where they end. A "
-        "friction of 0.05 holds it.",
+        "Contact between \"{}\" and \"{}\" (line {}) has no friction: a body pressed between wider flat ones has no "
+        "lateral support except the unevenness of the meshes and may slide out. A friction of 0.05 prevents it.",
         entry.groups[0], entry.groups[1], entry.origin.line));
   }
   return advice;

@@ -105,9 +105,9 @@ std::string slice_without_plane(const case_::Case& input, const Model& model) {
       !is_layer(model.mesh, model.topology, static_cast<int>(axis)))
     return {};
   return fmt::format(
-      "The mesh is one layer of elements across {}, with two free flat sides that carry contact points. If a slice is "
-      "meant, [plane] kind = \"stress\"{} takes them out of contact, and kind = \"strain\" lets nothing move along {} "
-      "as well, as inside a long body.",
+      "The mesh is one layer of elements across {}, with two free flat sides that carry contact points. For a slice, "
+      "[plane] kind = \"stress\"{} excludes them from contact, and kind = \"strain\" also fixes motion along {}, as "
+      "inside a long body.",
       "xyz"[axis], axis == 2 ? "" : fmt::format(", axis = \"{}\",", "xyz"[axis]), "xyz"[axis]);
 }
 
@@ -150,8 +150,9 @@ std::string small_sphere(const Model& model) {
   }
   if (outside == 0 || !around_something) return {};
   return fmt::format(
-      "The sphere does not hold the model: {} elements begin outside, element {} by {:.3g} m, and what begins "
-      "outside is not pushed back in. Raise sphere.radius from {:.4g} to more than {:.4g} m, or move sphere.centre.",
+      "The sphere does not enclose the model: {} elements are outside at the start, element {} by {:.3g} m, and "
+      "elements outside are not pushed back. Raise sphere.radius from {:.4g} to more than {:.4g} m, or move "
+      "sphere.centre.",
       outside, worst, furthest - sphere.radius, sphere.radius, furthest);
 }
 

@@ -178,7 +178,7 @@ Sentences sudden_load(const case_::Case& input, const Model& model) {
           "= {:g}, end = ..., to = ... }} }}, and damp: a material.viscosity of {}, or stage.local_damping{}.",
           words_of(input, stage), loads, quantity_text(kSlow * crossing, "s"), start,
           quantity_text(kViscosity * crossing * softest(model), "Pa s"),
-          model.has_contact ? "; contact.damping_ratio = 0.05 damps what bounces" : ""));
+          model.has_contact ? "; contact.damping_ratio = 0.05 damps bouncing" : ""));
     }
     before = &stage;
     start = stage.end;
@@ -196,9 +196,9 @@ Sentences undamped_friction(const case_::Case& input, const Model& model) {
   for (const case_::Stage& stage : input.stages) {
     if (!damped(input, stage, kSufficientShare * viscosity) && is_loaded(stage, start)) {
       return {fmt::format(
-          "{} stage {}, and there is friction (coefficients: {}) with which elastic bodies that slide vibrate and rub "
-          "too little; contact.friction_delay prevents that in what slides steadily, up to a coefficient of 0.6, not "
-          "in what is set down, dragged along or spun at once, and joints have no delay. If anything slides, damp: a "
+          "{} stage {}, and there is friction (coefficients: {}), with which sliding elastic bodies vibrate and the "
+          "mean friction is too low; contact.friction_delay prevents that for steady sliding, up to a coefficient of "
+          "0.6, not after sudden motions, and joints have no delay. For sliding bodies add damping: a "
           "material.viscosity of {}.",
           damped(input, stage) ? "Viscosity damps little in" : "Nothing damps", words_of(input, stage), entries.words,
           quantity_text(viscosity, "Pa s"))};
@@ -236,9 +236,9 @@ std::string damped_reactions(const case_::Case& input) {
     });
     if (!(stage.local_damping > 0) || !drives || std::none_of(entries.begin(), entries.end(), recorded)) continue;
     return fmt::format(
-        "Stage {} has a local_damping of {:g} and drives what output.gauges record: it changes the reactions wherever "
-        "anything accelerates or breaks (to accelerate a body takes {:.3g} times its force). To measure forces, leave "
-        "it out there and damp with material.viscosity; compare the reactions of both ends.",
+        "Stage {} has a local_damping of {:g} and drives what output.gauges record: it changes the reactions during "
+        "acceleration and fracture (acceleration requires {:.3g} times the force). To measure forces, omit it there "
+        "and damp with material.viscosity; compare the reactions of both ends.",
         words_of(input, stage), stage.local_damping, 1 / (1 - stage.local_damping));
   }
   return {};
@@ -249,8 +249,8 @@ Sentences overruled_constraints(const std::vector<ConstraintConflict>& conflicts
   for (const ConstraintConflict& c : conflicts) {
     if (c.whole) continue;
     advice.push_back(fmt::format(
-        "{} overrules {} along {} on {} of its {} nodes, which both name and which cannot follow both. If that is not "
-        "meant, leave {} out of one of them.",
+        "{} overrules {} along {} on {} of its {} nodes, which are in both entries. Otherwise remove {} from one of "
+        "them.",
         name_of(*c.later), name_of(*c.earlier), "xyz"[c.axis], c.shared, c.of_earlier, "xyz"[c.axis]));
   }
   return advice;

@@ -261,7 +261,7 @@ class Validator {
       for (const std::string& group : contact.groups)
         if (group != every_group) needs_material(contact.origin, "between", group);
       if (contact.points_on == PointsOn::first && contact.groups[0] == contact.groups[1])
-        problem(contact.origin, "points_on", "\"first\" needs to know which group comes first",
+        problem(contact.origin, "points_on", "\"first\" requires two different groups",
                 "two different groups in `between`", words(contact.groups));
       const auto [first, is_new] = laws.emplace(sorted(contact.groups), line_of(contact.origin, "between"));
       if (!is_new)

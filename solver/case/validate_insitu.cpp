@@ -78,8 +78,7 @@ class InSituValidator {
                 "the history has neither cells nor fixed columns", "neither region nor fields");
     } else if (draws_pictures(pipeline.name)) {
       if (!pipeline.fields.empty())
-        problem(origin, "fields", "pictures are handed the fields that they need", "no fields",
-                joined(pipeline.fields));
+        problem(origin, "fields", "pictures select their fields themselves", "no fields", joined(pipeline.fields));
     } else if (pipeline.name == kProbes) {
       if (pipeline.region) problem(pipeline.region->origin, "", "probes have their own positions", "no region");
       fields(origin, pipeline.fields, {"elements"});

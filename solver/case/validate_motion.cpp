@@ -69,7 +69,7 @@ class MotionLimits {
  private:
   void demand(const Origin& origin, const char* name, double magnitude, double most, const std::string& unit) {
     if (magnitude <= most) return;
-    problems_.push_back(problem_at(c_, origin, name, "is beyond what can be computed",
+    problems_.push_back(problem_at(c_, origin, name, "is too large to be computed",
                                    "magnitudes up to " + rounded(most) + " " + unit, rounded(magnitude) + " " + unit));
   }
 

@@ -253,8 +253,8 @@ std::string domain_table(const case_::Case& input, const Model& model, int parts
   }
   if (model.has_contact) {
     text +=
-        "- Contact is not counted: a rank also gathers and searches what comes near to its elements, which depends on "
-        "how bodies move.\n";
+        "- Contact is not included: a rank also gathers and searches elements near to its own, which depends on the "
+        "motion of the bodies.\n";
   }
   return text;
 }

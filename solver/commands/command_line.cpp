@@ -43,15 +43,15 @@ void define_insitu(CLI::App& app, Arguments& a) {
   CLI::App* insitu =
       app.add_subcommand("insitu", "In-situ pipelines, executed during a run: test them, or list their requirements");
   insitu->require_subcommand(1);
-  insitu->add_subcommand("info", "what the in-situ adaptor is, or what is missing");
+  insitu->add_subcommand("info", "describe the in-situ adaptor, or its missing parts");
   CLI::App* replay = insitu->add_subcommand(
-      "replay", "Feed what a run has recorded (pipelines volume, surface, fractures, ...) through pipelines");
+      "replay", "Execute pipelines on recorded data of a run (pipelines volume, surface, fractures, ...)");
   replay->add_option("run", a.replay.run, "folder of the run")->required();
   replay->add_option("pipelines", a.replay.pipelines, "scripts exported from ParaView, or names of pipelines")
       ->required();
   replay
       ->add_option("-o,--output", a.replay.folder,
-                   "folder of what they write; default: replay in the folder of the run")
+                   "folder of their results; default: replay in the folder of the run")
       ->check(some_name());
   replay
       ->add_option("-p,--parameter", a.replay.parameters,
@@ -66,8 +66,8 @@ void define_report(CLI::App& app, Arguments& a) {
   report->add_option("run", a.report.run, "folder of the run, which may also be in progress or killed")->required();
   report->add_option("-o,--output", a.report.file, "file of the page; default: report.html in the folder of the run")
       ->check(some_name());
-  report->add_flag("--no-pictures", a.report.no_pictures, "leave out what ParaView makes of the frames");
-  const char* limit = "seconds that ParaView may take; what is done by then is shown; default 600";
+  report->add_flag("--no-pictures", a.report.no_pictures, "omit pictures and statistics of the frames by ParaView");
+  const char* limit = "time limit of ParaView, s; parts finished by then are shown; default 600";
   report->add_option("--time-limit", a.report.time_limit, limit)->check(CLI::Range(1, 1000000));
 }
 
@@ -76,8 +76,8 @@ void define_command_line(CLI::App& app, Arguments& a) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("breccia ") + program_version());
   app.footer(
-      "Exit codes: 0 success, 1 usage, 2 case, mesh or output refused, 3 the numbers went wrong, 4 a fault of ours, "
-      "128 + N ended by signal N: 130 Ctrl-C, 143 SIGTERM.");
+      "Exit codes: 0 success, 1 usage, 2 case, mesh or output refused, 3 failure of the simulation, 4 error in the "
+      "program, 128 + N ended by signal N: 130 Ctrl-C, 143 SIGTERM.");
 
   define_run(app, a);
   define_resume(app, a);
@@ -86,7 +86,7 @@ void define_command_line(CLI::App& app, Arguments& a) {
   define_race(app, a);
 
   CLI::App* check =
-      app.add_subcommand("check", "Everything short of the first step: time step, memory, run time, advice");
+      app.add_subcommand("check", "Check a case without running it: time step, memory, run time, advice");
   check->add_option("case", a.check.case_file, kCaseHelp)->required();
   check->add_option("--set", a.check.overrides, kSetHelp)->allow_extra_args(false)->take_all()->check(override_text());
   check->add_flag("--trust-geometry", a.check.trust_geometry, kTrustHelp);

@@ -63,8 +63,8 @@ std::string stiffness_report(const Model& model) {
     const std::string range = most > least ? fmt::format("{:.3g} to {:.3g}", least / length[g], most / length[g])
                                            : fmt::format("{:.3g}", most / length[g]);
     text += fmt::format(
-        "contact of {}: stiffness penalty/H = {} Pa/m with H = {}; recommended penalty {}, E, or that "
-        "of what it meets if softer\n",
+        "contact of {}: stiffness penalty/H = {} Pa/m with H = {}; recommended penalty {}, E, or that of a softer "
+        "partner\n",
         names[g], range, quantity_text(length[g], "m"), quantity_text(young, "Pa"));
     if (const double delay = longest_delay(model, g, extent); delay > 0)
       text += fmt::format("  friction follows the normal force with a delay of up to {}\n", quantity_text(delay, "s"));

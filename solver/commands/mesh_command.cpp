@@ -26,7 +26,7 @@ namespace {
 /// A geometry that has no case yet: meshed with all defaults.
 case_::Case case_of_geometry(const MeshCommand& asked) {
   if (!asked.overrides.empty() || !asked.folder.empty())
-    throw InputError(Problem{asked.case_file.string(), 0, "", "is no case file: a geometry is meshed as it is",
+    throw InputError(Problem{asked.case_file.string(), 0, "", "is no case file: a geometry is meshed without a case",
                              "neither --set nor -o, which need a case.toml with mesh.file", ""});
   case_::Case input;
   input.mesh.file = asked.case_file;

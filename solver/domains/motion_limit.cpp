@@ -126,7 +126,7 @@ namespace {
       number(length) + " m in one step, at " + number(length / dt) + " m/s, " +
       (far ? "more than half the mean size of what may touch (" + number(size) + " m): contacts would be missed"
            : "much further than any node in the previous step: contacts may be detected with a delay") +
-      "; lower time.safety (or time.step), or the penalties, or bring what is driven to its velocity gradually");
+      "; lower time.safety (or time.step), or the penalties, or accelerate driven groups gradually");
 }
 
 }  // namespace

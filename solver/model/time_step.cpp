@@ -133,7 +133,7 @@ std::string given_step_text(double dt, const StableStep& step) {
   }
   return given + number_text(dt / step.step, 3) + " times longer than what " + limit_text(step) + " allows, " +
          number_text(step.step, 3) +
-         " s: what is pressed together there may gain energy. Leave it to \"auto\", or lower the penalty.";
+         " s: bodies in contact there may gain energy. Set it to \"auto\", or lower the penalty.";
 }
 
 }  // namespace breccia

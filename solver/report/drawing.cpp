@@ -194,7 +194,7 @@ Figures draw_run(const fs::path& run, char up, std::chrono::seconds limit) {
   Figures figures = read_figures(scratch.path());
   if (end == End::out_of_time)
     figures.missing =
-        fmt::format("ParaView took more than {} s and was ended; what was done by then is shown", limit.count());
+        fmt::format("ParaView took more than {} s and was ended; parts finished by then are shown", limit.count());
   else if (end == End::failed || figures.paraview.empty())
     figures.missing = "ParaView could not read or draw the run: " + last_words(log, scratch.path() / "messages.log");
   else if (!draws)

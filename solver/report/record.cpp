@@ -71,7 +71,7 @@ void take_status(run_folder::StatusLine line, RunRecord& record) {
 void read_status(const RunFolder& run, RunRecord& record) {
   const std::optional<std::string> text = regular_content(run.status());
   if (!text) {
-    record.flaws.emplace_back("status.jsonl is missing: how the run ended is not known.");
+    record.flaws.emplace_back("status.jsonl is missing: the end of the run is unknown.");
     return;
   }
   const run_folder::WholeLines found = run_folder::whole_lines(*text);

@@ -120,9 +120,9 @@ std::string remedy_of(const Domain& domain) {
     return "elements have been crushed or turned inside out: lower speeds and loads, use larger elements there, or "
            "lower time.safety (or time.step)";
   if (!domain.state.loads.surfaces.empty() || !domain.state.loads.forces.empty())
-    return "a pressure, traction or force drives what it has torn off on and on: end it or lower it, or lower "
-           "time.safety (or time.step)";
-  return "the time step is too long for what happens there: lower time.safety (or time.step), or the penalties";
+    return "a pressure, traction or force keeps accelerating fragments that have separated: end it or lower it, or "
+           "lower time.safety (or time.step)";
+  return "the time step is too long for the motion there: lower time.safety (or time.step), or the penalties";
 }
 
 /// Ends the run, with a state whose numbers can be shown: positions are those before this step.

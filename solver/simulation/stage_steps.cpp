@@ -98,7 +98,7 @@ void StageSteps::judge(double stable) {
   const StableStep limiter = limit();
   const std::string text = "step " + std::to_string(clock.steps) + ", time " + number(clock.time) +
                            " s: the stable step has fallen to " + number(stable) + " s, " + number(100 * share) +
-                           " % of that of the model at rest, by " + limit_text(limiter) + "; what is left would take " +
+                           " % of that of the model at rest, by " + limit_text(limiter) + "; the rest would take " +
                            number(rest / (input_.time.safety * stable)) + " steps; " + remedy_of(limiter.limit);
   if (ends) throw SimulationError(text + "; a time.step given in the case is not checked");
   warning_ = text;

@@ -101,7 +101,7 @@ steering._program = os.environ["STEERING"]
 print("folder", steering.folder, file=log)
 ask("FrameInterval", "1 ms", "frame_interval 1 ms: done")
 ask("FrameInterval", "soon", "frame_interval")
-wait("a refusal", lambda: "asked to" not in words() and "frame_interval soon: " in words())
+wait("a refusal", lambda: "requested: " not in words() and "frame_interval soon: " in words())
 print("refused", " ".join(words().split("frame_interval soon: ")[1].split()), file=log)
 ask("Request", live_steering.REQUESTS.index("pause"), "pause: done")
 end = time.time() + 1.0

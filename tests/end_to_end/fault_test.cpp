@@ -86,7 +86,7 @@ TEST_P(Fault, WarnsOnceOfATimeStepThatFallsToATenth) {
   ASSERT_NE(first, std::string::npos) << drawn.err;
   EXPECT_EQ(drawn.err.find(words, first + 1), std::string::npos) << drawn.err;
   static const std::regex kSaid(R"(step \d+, time \S+ s: the stable step has fallen to \S+ s, \S+ % of that of the )"
-                                R"(model at rest, by element \d+; what is left would take \S+ steps; )");
+                                R"(model at rest, by element \d+; the rest would take \S+ steps; )");
   EXPECT_TRUE(std::regex_search(drawn.err, kSaid)) << drawn.err;
   EXPECT_NE(read_text(folder("drawn") / "status.jsonl").find(words), std::string::npos);
 }

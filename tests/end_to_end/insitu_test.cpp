@@ -369,7 +369,7 @@ TEST(InSituAlone, CheckRefusesWhatARunWould) {
   const std::string file = scratch.write("case.toml", kSmallCase);
   const Outcome outcome = call("check " + file + " --set 'insitu.pipeline=[{name=\"stress\", parameters={widht=3}}]'");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("stress: knows no parameter 'widht'; allowed: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("stress: has no parameter 'widht'; allowed: "), std::string::npos) << outcome.err;
   const Outcome kinds =
       call("check " + file + " --set 'insitu.pipeline=[{name=\"stress\", parameters={title=3, width=\"wide\"}}]'");
   EXPECT_EQ(kinds.exit_code, 2);

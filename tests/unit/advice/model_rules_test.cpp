@@ -92,7 +92,7 @@ TEST(ModelAdvice, NamesASphereThatDoesNotHoldTheModelAndTheRadiusThatWould) {
     return "[sphere]\ncentre = [\"5 mm\", \"5 mm\", \"5 mm\"]\nradius = \"" + radius + "\"\npenalty = \"40 GPa\"\n";
   };
   EXPECT_THAT(advice_on(raster({1, 1, 1}) + sphere("8 mm")),
-              AllOf(HasSubstr("sphere does not hold the model"), HasSubstr("0.00866 m")));
+              AllOf(HasSubstr("sphere does not enclose the model"), HasSubstr("0.00866 m")));
   EXPECT_EQ(advice_on(raster({1, 1, 1}) + sphere("9 mm")), "");
 }
 

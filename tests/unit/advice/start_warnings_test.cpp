@@ -42,7 +42,7 @@ TEST(Unmeant, IsASphereAroundNothing) {
   const auto sphere = [](const std::string& radius) {
     return advice_on("[sphere]\nradius = \"" + radius + "\"\npenalty = 1e9\n");
   };
-  EXPECT_THAT(sphere("1 mm"), AllOf(HasSubstr("The sphere is around nothing"), HasSubstr("more than 0.02532 m")));
+  EXPECT_THAT(sphere("1 mm"), AllOf(HasSubstr("The sphere encloses nothing"), HasSubstr("more than 0.02532 m")));
   EXPECT_EQ(sphere("20 mm"), "") << "it holds a part: small_sphere reports it";
 }
 

@@ -100,7 +100,7 @@ TEST(Groups, ACurveWhereASurfaceIsAskedForIsRefused) {
   EXPECT_THAT(
       text(check_groups(read_text(complete), {volumes, without(surfaces, "slit"), nodes})),
       HasSubstr(
-          "stage[0].pressure[0].surface: this is a curve or point of the mesh, where a surface group is asked for; "
+          "stage[0].pressure[0].surface: this is a curve or point of the mesh, where a surface group is required; "
           "allowed: "));
 }
 
