@@ -101,7 +101,7 @@ TEST_P(Catalyst2Faults, ALibraryThatIsNoLibcatalystIsRefusedBeforeTheRun) {
 TEST_P(Catalyst2Faults, ValuesAtPointsAreRefusedBeforeTheRun) {
   const CatalystRun run(GetParam(),
                         kBackend + "--set 'insitu.pipeline=[{name=\"surface\", parameters={point_data=\"stress\"}}]'");
-  expect_refused(run, "surface: values at points, point_data, are not handed to Catalyst 2");
+  expect_refused(run, "surface: values at points, point_data, are not passed to Catalyst 2");
 }
 
 INSTANTIATE_TEST_SUITE_P(OfRanks, Catalyst2Faults, testing::Values(1, 2), testing::PrintToStringParamName());

@@ -42,7 +42,7 @@ TEST_P(Fault, NamesTheLastSoundCheckpointFromWhichACaseWithoutItsCauseGoesOn) {
   std::smatch named;
   static const std::regex kNamed(
       R"(sound before that: (\S+/step_0*(\d+)\.h5), frame (\d+); a case with \[start\] from = )"
-      R"re("(\S+)", step = (\d+) goes on from there)re");
+      R"re("(\S+)", step = (\d+) continues from there with other settings)re");
   ASSERT_TRUE(std::regex_search(failed.err, named, kNamed)) << failed.err;
   EXPECT_TRUE(fs::exists(named[1].str()));
   EXPECT_EQ(named[2], named[5]);

@@ -336,7 +336,7 @@ TEST_F(Start, TakesTheLastStateOfARunThatHasEndedOnly) {
   ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
   const Outcome early = attempt("refused", started() + laws() + kPush);
   EXPECT_EQ(early.exit_code, 2);
-  EXPECT_NE(early.err.find("start.from: this run goes on"), std::string::npos) << early.err;
+  EXPECT_NE(early.err.find("start.from: this run is in progress"), std::string::npos) << early.err;
   run("by_step", started("parent", "step = 100\n") + laws() + kPush, 1, "--set time.max_steps=2");
   close(lock);
   run("ended", started() + laws() + kPush, 1, "--set time.max_steps=2");
