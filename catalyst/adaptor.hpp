@@ -15,7 +15,7 @@
 
 namespace breccia::insitu {
 
-/// The pipelines of a run, ready to be executed. Members are collective unless they say otherwise.
+/// The pipelines of a run, ready to be executed. Members are collective unless stated otherwise.
 class Adaptor {
  public:
   /// Starts what the pipelines need and no more: ParaView for scripts and the live link, Python for scripts, a display
@@ -41,7 +41,7 @@ class Adaptor {
   /// The same on a frame, which all pipelines get whole.
   std::uint32_t execute(std::uint32_t pipelines, const Frame& frame, BrecciaRequests& requests, std::string& text);
 
-  /// Lines of what there is to tell since the last call that is no failure; the same on all ranks.
+  /// Notices since the last call, failures excluded, a line each; the same on all ranks.
   [[nodiscard]] std::string notices();
 
   /// Ends the pipelines and makes animations of their pictures; nothing can be executed afterwards.
@@ -83,7 +83,7 @@ class Adaptor {
   /// The first rank alone draws, where ParaView is needed for pictures of our own and nothing else: the others save its
   /// memory. Null: all do.
   std::unique_ptr<Ranks> alone_;
-  SelectedInstant whole_{Selection{}};  ///< without the values at points that others have asked for
+  SelectedInstant whole_{Selection{}};  ///< without the values at points that others have requested
   FrameToVtk frames_;
   std::vector<std::uint32_t> script_channels_;  ///< by pipeline; of scripts
   std::uint32_t script_draws_ = 0;              ///< mask of the pipelines that make pictures

@@ -105,7 +105,7 @@ std::string made(const fs::path& folder, const std::string& name, const Series& 
     fs::rename(temporary, result, error);
     if (!error) return "animation: " + result.string();
   } catch (const PipelineError&) {
-    // Said below: what ffmpeg has to say of it is long.
+    // Reported below: the output of ffmpeg is long.
   }
   fs::remove(temporary, error);
   return "animation: ffmpeg could not make " + result.string();

@@ -7,9 +7,9 @@
 namespace breccia::insitu {
 
 /// Makes NAME.mp4 of the pictures NAME_000000120.png, two at least, in each folder, by ffmpeg; a file is there whole or
-/// not at all. Takes two minutes at most for each, then that animation is given up. Throws nothing.
-/// @return  a line for what was made, or failed, or one line that says how to make it where ffmpeg is not installed;
-///          separated by newlines
+/// not at all. Each takes two minutes at most, then it is aborted. Throws nothing.
+/// @return  a line for each animation that was made or failed, or one line with instructions if ffmpeg is not
+///          installed; separated by newlines
 [[nodiscard]] std::string make_animations(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace breccia::insitu

@@ -120,7 +120,7 @@ class ApiFunctions {
     try {
       put(adaptor_of(adaptor).notices(), text, size);
     } catch (const std::exception&) {
-      // There is nothing to tell.
+      // There is no message.
     }
   }
 

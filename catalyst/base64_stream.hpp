@@ -11,8 +11,8 @@
 
 namespace breccia::insitu {
 
-/// What vtkBase64OutputStream writes, but in one piece, three bytes by two look-ups: that one makes and hands over
-/// every four characters by themselves, which took half of the time of a large file.
+/// What vtkBase64OutputStream writes, but in one piece, three bytes by two look-ups: that one writes every four
+/// characters separately, which is slow for large files.
 class Base64Stream : public vtkOutputStream {
  public:
   vtkTypeMacro(Base64Stream, vtkOutputStream) static Base64Stream* New();
@@ -57,8 +57,8 @@ class Base64Stream : public vtkOutputStream {
   std::string text_;
 };
 
-/// A writer of VTK's XML formats that uses it, and leaves out each array's range: readers need none, and looking for
-/// them took a third of the time of a file.
+/// A writer of VTK's XML formats that uses it, and omits each array's range: readers need none, and computing them is
+/// slow.
 template <class Writer>
 class WithBase64Stream : public Writer {
  public:

@@ -26,7 +26,7 @@ int Catalyst2Adaptor::status_of(const std::string& what, Call&& call) {
   } catch (const std::exception& error) {
     throw PipelineError(error.what());
   } catch (...) {
-    throw PipelineError("it has thrown what is no exception");
+    throw PipelineError("it has thrown an object that is no exception");
   }
 }
 
@@ -131,7 +131,7 @@ void Catalyst2Adaptor::initialize() {
   if (about.functions().has_path(about.root(), path) == 0) return;
   const std::string started = about.functions().path_as_text(about.root(), path);
   if (started != library_->implementation())
-    throw PipelineError(implementation() + " was asked for and '" + started +
+    throw PipelineError(implementation() + " was requested and '" + started +
                         "' started; is CATALYST_IMPLEMENTATION_PREFER_ENV set?");
 }
 

@@ -57,7 +57,7 @@ Catalyst2Library::Catalyst2Library() {
   void* library = nullptr;
   std::string reasons;
   for (const fs::path& file : candidates()) {
-    // Global: libcatalyst looks for its own functions there to find the implementations beside itself.
+    // Global: libcatalyst searches its own functions there to find the implementations beside itself.
     library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
     file_ = file;
     if (library != nullptr) break;
@@ -86,8 +86,8 @@ fs::path Catalyst2Library::implementation_file() const {
     if (fs::exists(file, error)) return file;
     tried += (tried.empty() ? "" : ", ") + file.string();
   }
-  throw PipelineError("libcatalyst (" + file_.string() + ") has no implementation '" + implementation_ +
-                      "'; looked for " + tried +
+  throw PipelineError("libcatalyst (" + file_.string() + ") has no implementation '" + implementation_ + "'; tried " +
+                      tried +
                       ": CATALYST_IMPLEMENTATION_NAME "
                       "names one, CATALYST_IMPLEMENTATION_PATHS the folder of its file");
 }

@@ -12,7 +12,7 @@ class Catalyst2Library {
  public:
   /// Opens the file that the environment's BRECCIA_LIBCATALYST names, else libcatalyst.so.3, where the loader finds it
   /// or in and above the folders of CATALYST_IMPLEMENTATION_PATHS; no case names it, so that none can bring its own
-  /// code. Starts nothing. Throws PipelineError saying what to do when there is none, or it lacks a function.
+  /// code. Starts nothing. Throws PipelineError with the remedy if there is none, or it lacks a function.
   Catalyst2Library();
 
   [[nodiscard]] const ConduitFunctions& functions() const { return functions_; }
@@ -23,7 +23,7 @@ class Catalyst2Library {
   [[nodiscard]] bool is_paraview() const { return implementation_ == kParaView; }
 
   /// The implementation's file: libcatalyst-NAME.so in a folder of CATALYST_IMPLEMENTATION_PATHS or in catalyst/ beside
-  /// libcatalyst, where that looks for it. Throws PipelineError naming all that were tried.
+  /// libcatalyst, its default place. Throws PipelineError naming all that were tried.
   [[nodiscard]] std::filesystem::path implementation_file() const;
 
   static constexpr const char* kParaView = "paraview";

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kOtherBackend = "the adaptor with ParaView linked, insitu.backend = \"paraview\"";
 
-/// What cannot work over Catalyst 2, whoever is behind it. Throws PipelineError.
+/// Refuses what Catalyst 2 cannot do, with any implementation. Throws PipelineError.
 void demand_possible(const PipelineChoice& choice, bool is_paraview) {
   if (is_paraview && !choice.selection.fields.empty())
     throw PipelineError(
@@ -18,7 +18,7 @@ void demand_possible(const PipelineChoice& choice, bool is_paraview) {
                     "them, so that none can have fields of its own; that needs ") +
         kOtherBackend);
   if (!choice.selection.point_fields.empty())
-    throw PipelineError(std::string("values at points, point_data, are not handed to Catalyst 2; that needs ") +
+    throw PipelineError(std::string("values at points, point_data, are not passed to Catalyst 2; use ") +
                         kOtherBackend);
   switch (choice.kind) {
     case PipelineKind::probes:
@@ -63,7 +63,7 @@ std::vector<std::string> catalyst2_problems_of(const BrecciaConfig& config) {
         if (choice.kind != PipelineKind::script) return check_parameters(choice, {}, found);
         ScriptNeeds needs = check_script(choice.file);
         for (const std::string& problem : needs.problems) found.push_back(choice.name + ": " + problem);
-        // A user's script may be told of parameters otherwise, and compute their names.
+        // A user's script may get parameters in other ways, and compute their names.
         for (const auto& [name, value] : choice.parameters)
           if (!choice.ready) needs.parameters.try_emplace(name);
         check_parameters(choice, needs.parameters, found);

@@ -7,7 +7,7 @@
 
 namespace breccia::insitu {
 
-/// What was found: libcatalyst and the file of its implementation, a line each. Throws PipelineError saying what lacks.
+/// Paths of libcatalyst and of the file of its implementation, a line each. Throws PipelineError with the missing one.
 [[nodiscard]] std::string found_catalyst2();
 
 /// Everything that keeps the pipelines of a configuration from running over Catalyst 2; see preflight of

@@ -98,7 +98,7 @@ class ScriptPipeline final : public Pipeline {
     if (!pending_.empty()) return is_.channels;
     const std::string why = ranks_.agree(reason_to_end());
     if (why == kDropped) return 0;
-    if (!why.empty()) {  // executed once more, so that it is told
+    if (!why.empty()) {  // executed once more, so that it is reported
       pending_ = why;
       dropped_ = true;
       return is_.channels;
@@ -107,7 +107,7 @@ class ScriptPipeline final : public Pipeline {
     const auto description = described(step, time);
     enter();
     const bool wanted = script_->RequestDataDescription(description) != 0;
-    // A script that raises here is executed, so that its error is told.
+    // A script that raises here is executed, so that its error is reported.
     pending_ = ranks_.agree(error_now());
     if (!pending_.empty()) return is_.channels;
     std::uint32_t mask = 0;
@@ -166,10 +166,10 @@ class ScriptPipeline final : public Pipeline {
  private:
   void enter() const { python::enter(is_.name, is_.file, is_.folder, is_.parameters, is_.about); }
 
-  /// Why there is no sense in going on with it, on this rank; empty: there is.
+  /// Reason to end it, on this rank; empty: none.
   [[nodiscard]] std::string reason_to_end() const {
     if (dropped_) return kDropped;
-    return is_.display != nullptr && is_.display->lost() ? "the X display on which it draws has gone" : "";
+    return is_.display != nullptr && is_.display->lost() ? "the X display on which it draws has closed" : "";
   }
 
   /// VTK's writers do not bear a full disk well. Empty: there is space.
@@ -204,7 +204,7 @@ class ScriptPipeline final : public Pipeline {
   vtkNew<vtkCPPythonScriptV2Pipeline> script_;
   bool executed_ = false;
   bool dropped_ = false;  ///< it has taken too long, or cannot draw any more
-  std::string pending_;   ///< what the script raised when it was asked for its channels
+  std::string pending_;   ///< exception of the script at the query of its channels
   std::int64_t written_before_ = 0;
 };
 

@@ -17,7 +17,7 @@ struct ScriptDescription {
   std::string name;
   std::filesystem::path file;
   std::filesystem::path folder;  ///< where its extracts go; exists
-  std::uint32_t channels = 0;    ///< mask of those that the script names; all of them may be asked for
+  std::uint32_t channels = 0;    ///< mask of those that the script names; all of them may be requested
   Parameters parameters;
   python::About about;
   const Display* display = nullptr;  ///< on which it draws; null: it does not

@@ -23,7 +23,7 @@ constexpr int kStartMs = 15000;  // a busy machine may take seconds to start a s
 
 /// What runs in the child: becomes Xvfb or ends. Only functions that are safe after fork.
 [[noreturn]] void become_xvfb(int number_end, pid_t parent, const char* number) {
-  // With the run whatever happens to it, but not by the Ctrl-C of its terminal: the last pictures still need it.
+  // Ends with the run in any case, but not by the Ctrl-C of its terminal: the last pictures still need it.
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(127);
   ::setpgid(0, 0);
@@ -187,8 +187,8 @@ Display::~Display() {
   if (replaced_ && was_set_) ::setenv("DISPLAY", old_.c_str(), 1);
   if (replaced_ && !was_set_) ::unsetenv("DISPLAY");
   if (!replaced_) return;
-  static_cast<void>(
-      ranks_.agree(""));  // others may still be taking leave of it, and Xlib ends a process whose server has gone
+  static_cast<void>(ranks_.agree(
+      ""));  // others may still be closing their connection, and Xlib ends a process whose server has closed
   if (xvfb_ > 0) stop(xvfb_);
 }
 

@@ -13,7 +13,7 @@ namespace breccia::insitu {
 /// installed or the one of $DISPLAY can be drawn on; else what to do about it.
 [[nodiscard]] std::string display_problem();
 
-/// The process goes on when the server of an open X display (a pointer of Xlib's) goes.
+/// The process continues when the server of an open X display (a pointer of Xlib's) closes.
 void spare_process(void* display);
 
 /// A display for pictures, as long as it lives: the one that $BRECCIA_DISPLAY names; else an Xvfb of our own, one a
@@ -27,7 +27,7 @@ class Display {
   Display& operator=(const Display&) = delete;
   ~Display();
 
-  /// Whether its server has gone: ParaView must not be asked for a picture any more. On this rank.
+  /// Whether its server has closed: then ParaView must not draw any more. On this rank.
   [[nodiscard]] bool lost() const;
 
  private:
@@ -35,7 +35,7 @@ class Display {
   void start_own();
 
   const Ranks& ranks_;
-  void* link_ = nullptr;  ///< of Xlib: tells when the server goes
+  void* link_ = nullptr;  ///< of Xlib: detects that the server has closed
   pid_t xvfb_ = 0;
   bool replaced_ = false;
   bool was_set_ = false;

@@ -12,8 +12,8 @@ namespace breccia::insitu {
 class ChannelToVtk {
  public:
   /// The object reads the solver's memory: it must be out of use when that memory may change. Field data: TimeValue (s)
-  /// and step. Throws PipelineError when the channel is not what insitu_abi.h says. O(num_arrays); O(num_cells) when
-  /// the topology has changed.
+  /// and step. Throws PipelineError when the channel is not as defined in insitu_abi.h. O(num_arrays); O(num_cells)
+  /// when the topology has changed.
   [[nodiscard]] vtkSmartPointer<vtkDataObject> wrap(const BrecciaGrid& grid, std::int64_t step, double time);
 
   /// Connectivity of the last wrap; null before the first and for tables.

@@ -17,7 +17,7 @@ class GridToBlueprint {
  public:
   /// Fills the mesh `data`. What it points to must stay until the tree is out of use; the corners of the next calls
   /// may lie elsewhere, so keep this object, and do not make the next tree before the last one is out of use.
-  /// Throws PipelineError when the channel is not what insitu_abi.h says. O(num_arrays), mostly.
+  /// Throws PipelineError when the channel is not as defined in insitu_abi.h. O(num_arrays), mostly.
   void fill(const ConduitFunctions& conduit, ConduitNode* data, const BrecciaGrid& grid, int rank, std::int64_t step,
             double time);
 

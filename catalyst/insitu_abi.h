@@ -1,10 +1,10 @@
 #ifndef BRECCIA_CATALYST_INSITU_ABI_H
 #define BRECCIA_CATALYST_INSITU_ABI_H
 
-/* What the solver and an in-situ adaptor know of each other: plain arrays and C functions, no VTK, no MPI type. The
- * solver opens the adaptor with dlopen when a run asks for it, and takes its functions from breccia_insitu_api().
- * There are two, libraries with the same function: libbreccia_catalyst.so has ParaView linked, libbreccia_catalyst2.so
- * hands the channels to whatever implementation of Catalyst 2 is there.
+/* The interface of the solver and an in-situ adaptor: plain arrays and C functions, no VTK, no MPI type. The solver
+ * opens the adaptor with dlopen when a run needs it, and gets its functions from breccia_insitu_api(). There are
+ * two, libraries with the same function: libbreccia_catalyst.so has ParaView linked, libbreccia_catalyst2.so passes the
+ * channels to any installed implementation of Catalyst 2.
  *
  * All lengths in m, all quantities SI. Strings are UTF-8 and end with 0. Functions marked "collective" are called by
  * all ranks of the communicator, in the same order and with the same pipelines; data are those of the rank. No function
@@ -65,7 +65,7 @@ typedef struct {
   uint64_t topology;      /* changes whenever num_points, num_cells or corners do */
   int32_t num_arrays;
   const BrecciaArray* arrays;
-  int32_t num_point_arrays; /* 0 where values at points were not asked for */
+  int32_t num_point_arrays; /* 0 if values at points were not requested */
   const BrecciaArray* point_arrays;
 } BrecciaGrid;
 
@@ -74,7 +74,7 @@ typedef struct {
 typedef struct {
   int64_t step;
   double time;                                       /* s, simulated */
-  const BrecciaGrid* channels[BRECCIA_NUM_CHANNELS]; /* NULL: not asked for by any pipeline of this call */
+  const BrecciaGrid* channels[BRECCIA_NUM_CHANNELS]; /* NULL: not requested by any pipeline of this call */
 } BrecciaInstant;
 
 /* A parameter of a pipeline, as it was written: a number or a text. A text that reads as a quantity ("30 MPa") is both.
@@ -97,7 +97,7 @@ typedef struct {
  * absolute path. */
 typedef struct {
   const char* name;
-  uint32_t channels; /* mask of what "live" publishes; 0: what the pipeline itself asks for */
+  uint32_t channels; /* mask of the channels that "live" publishes; 0: those that the pipeline requests */
   int32_t num_parameters;
   const BrecciaParameter* parameters;
   const double* region; /* lower and upper corner of a closed box, m: it gets the cells alone whose centre, the mean of
@@ -119,16 +119,16 @@ typedef struct {
   double strength;    /* Pa, a stress at which something breaks in this case; 0: unknown. Where colours of stress end
                          as long as there is no more than that */
   const char* folder; /* absolute, exists: pipelines write here and nowhere else */
-  const char* run;    /* absolute: of the run, which takes commands there; a live view is told. "": it takes none */
+  const char* run;    /* absolute: of the run, which accepts commands there; sent to a live view. "": none */
   const char* live_host;
   int32_t live_port;
-  int32_t (*run_ends)(void); /* whether somebody wants the run to end: a live view that pauses it is let go; on the
-                                first rank, by any thread; NULL: nobody does */
+  int32_t (*run_ends)(void); /* whether the run is requested to end: a live view that pauses it is disconnected;
+                                on the first rank, by any thread; NULL: never */
   int32_t num_pipelines;     /* at most 32 */
   const BrecciaPipeline* pipelines;
 } BrecciaConfig;
 
-/* What a script asks of the solver in return; the first rank's counts. A script finds these as arrays of one value in
+/* Requests of a script to the solver; those of the first rank apply. A script finds these as arrays of one value in
  * the user data of its data description: "stop", "pause", "extract" (0 or 1), "frame_interval" (s, 0: leave). */
 typedef struct {
   int32_t stop, pause, extract;
@@ -143,11 +143,11 @@ typedef struct {
   const char* description; /* "ParaView Catalyst 5.11.0" */
   const char* data_folder; /* absolute: pipelines/, and python/, the view of `breccia live` */
 
-  /* Whether the back end could start here. 0: it could; the text tells with what, a line each. Otherwise the text says
-   * what lacks. Not collective; starts nothing. */
+  /* Whether the back end could start here. 0: it could; the text lists the components found, a line each. Otherwise
+   * the text names the missing one. Not collective; starts nothing. */
   int32_t (*find)(char* text, size_t size);
 
-  /* Looks whether all pipelines could run: scripts can be read and compile, names are known, parameters are known to
+  /* Checks whether all pipelines could run: scripts can be read and compile, names are known, parameters are known to
    * the adaptor's own pipelines, images find a display (one is made when none is there and Xvfb is installed),
    * libraries load, the folder can be written into. 0: all can. Otherwise the text names every problem, problems
    * separated by newlines. On any number of ranks called on each of them, not collective, before open; starts neither
@@ -157,7 +157,7 @@ typedef struct {
   /* Starts the back end. NULL: failed, see text. Collective. */
   void* (*open)(const BrecciaConfig* config, char* text, size_t size);
 
-  /* Mask of the channels that a pipeline asks for now, and BRECCIA_POINT_VALUES; 0: none, nothing to execute.
+  /* Mask of the channels that a pipeline requests now, and BRECCIA_POINT_VALUES; 0: none, nothing to execute.
    * Collective. */
   uint32_t (*channels)(void* adaptor, int32_t pipeline, int64_t step, double time);
 
@@ -167,15 +167,15 @@ typedef struct {
   int64_t (*execute)(void* adaptor, uint32_t pipelines, const BrecciaInstant* instant, BrecciaRequests* requests,
                      char* text, size_t size);
 
-  /* What there is to tell of the pipelines since the last call that is no failure, a line each: the same on all ranks.
+  /* Notices of the pipelines since the last call, failures excluded, a line each: the same on all ranks.
    * Collective; between calls of `channels` and `execute`. */
   void (*notices)(void* adaptor, char* text, size_t size);
 
   /* Bytes that a pipeline has written on this rank so far. */
   int64_t (*bytes_written)(void* adaptor, int32_t pipeline);
 
-  /* Ends the pipelines, and whatever open has started; the first rank makes animations of the pictures. What there is
-   * to tell of them stands in the text, a line each, on the first rank. Collective, before MPI_Finalize. */
+  /* Ends the pipelines, and all that open has started; the first rank makes animations of the pictures. Their
+   * notices are in the text, a line each, on the first rank. Collective, before MPI_Finalize. */
   void (*close)(void* adaptor, char* text, size_t size);
 
   /* Feeds what pipelines recorded (folder/<channel>/, as "volume", "fractures", "surface" and others write it) through

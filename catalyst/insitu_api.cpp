@@ -17,7 +17,7 @@ struct ParaViewBackend {
   static std::string replay(const BrecciaConfig& config, const char* folder) {
     for (std::int32_t i = 0; i < config.num_pipelines; ++i) {
       if (!choose(config.pipelines[i]).selection.is_all())
-        throw PipelineError(std::string(config.pipelines[i].name) + ": a replay hands over all that was recorded");
+        throw PipelineError(std::string(config.pipelines[i].name) + ": a replay passes all recorded data");
     }
     Adaptor adaptor(config, true);
     insitu::replay(adaptor, folder);

@@ -11,7 +11,7 @@
 namespace breccia::insitu {
 namespace {
 
-constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
+constexpr auto kPollInterval = std::chrono::milliseconds(100);
 
 /// Descriptors of this process that are sockets of TCP.
 std::set<int> tcp_sockets() {
@@ -48,7 +48,7 @@ void shut_down(int port, const std::set<int>& before) {
 }  // namespace
 
 LinkWatch::LinkWatch(int port, std::function<bool()> run_ends)
-    : port_(port), run_ends_(std::move(run_ends)), thread_(kBetweenLooks, [this] { look(); }) {}
+    : port_(port), run_ends_(std::move(run_ends)), thread_(kPollInterval, [this] { look(); }) {}
 
 void LinkWatch::begin(std::optional<std::chrono::milliseconds> limit) {
   std::set<int> before = tcp_sockets();

@@ -9,13 +9,13 @@
 
 namespace breccia::insitu {
 
-/// Cuts a link over TCP short that waits in vain: VTK's sockets know no time limit, so that a ParaView that is stopped,
-/// or a service that says nothing, would hold the run for ever. A thread of its own shuts down the sockets to the port,
+/// Closes a TCP connection that does not respond: VTK's sockets know no time limit, so that a stopped ParaView, or
+/// another service at the port, would block the run for ever. A thread of its own shuts down the sockets to the port,
 /// and the call that waits for them returns with an error.
 class LinkWatch {
  public:
   /// @param port  of the other side
-  /// @param run_ends  asked by the thread while a call goes on: whether it must not be waited for any longer
+  /// @param run_ends  called by the thread during a call: whether to stop waiting
   LinkWatch(int port, std::function<bool()> run_ends);
   LinkWatch(const LinkWatch&) = delete;
   LinkWatch& operator=(const LinkWatch&) = delete;

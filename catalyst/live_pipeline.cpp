@@ -98,7 +98,7 @@ auto LivePipeline::limited(std::optional<std::chrono::milliseconds> limit, Call&
 
 std::string LivePipeline::notice() {
   if (ranks_.from_root(std::int64_t{std::exchange(cut_, false)}) == 0) return {};
-  return "whoever listens at the port did not answer, and was let go";
+  return "ParaView did not respond within 30 s; the connection was closed";
 }
 
 std::uint32_t LivePipeline::channels(std::int64_t, double) {
@@ -146,7 +146,7 @@ void LivePipeline::withdraw() {
 
 void LivePipeline::execute(const Frame& frame, BrecciaRequests& requests) {
   publish(frame);
-  // Each turn sends what ParaView has asked for; while it pauses the run, a turn follows each of its wishes.
+  // Each turn sends what ParaView has requested; while it pauses the run, a turn follows each of its requests.
   const auto turn = [&] {
     const bool connected = link_->Initialize(proxies_);
     if (connected) link_->InsituUpdate(frame.time, frame.step);
@@ -160,7 +160,7 @@ void LivePipeline::execute(const Frame& frame, BrecciaRequests& requests) {
   // Not at once again to one that did not answer.
   if (cut_) next_attempt_ = Clock::now() + kRestAfterSilence;
   withdraw();
-  static_cast<void>(take_errors());  // a ParaView that has gone is no failure of the run
+  static_cast<void>(take_errors());  // a closed ParaView is no failure of the run
 }
 
 }  // namespace breccia::insitu

@@ -22,15 +22,16 @@ class vtkSMSourceProxy;
 namespace breccia::insitu {
 
 /// The link to a ParaView that listens on host:port (Catalyst > Connect), which may come and go: channels are published
-/// as sources of their names, ParaView takes those it wants, may pause the run, and lets it go on. Without a listener
-/// nothing is asked of the solver and an attempt to connect is made at most every half second, and so that attempts
-/// take at most 2 % of the time. Starts no Python. A pause blocks execute on all ranks until ParaView continues or
-/// dies, or the run is to end. A ParaView that does not answer for thirty seconds is let go.
+/// as sources of their names, ParaView receives those it requests, and may pause and resume the run. Without a listener
+/// no channel is requested from the solver and an attempt to connect is made at most every half second, and so that
+/// attempts take at most 2 % of the time. Starts no Python. A pause blocks execute on all ranks until ParaView
+/// continues or dies, or the run is to end. The connection is closed if ParaView does not respond within thirty
+/// seconds.
 class LivePipeline final : public Pipeline {
  public:
   /// @pre a CatalystBackend lives as long as this
-  /// @param run  folder of the run, told in the field data of what is published: the array "run", its bytes
-  /// @param run_ends  whether the run has been asked to end; called on the first rank, by another thread
+  /// @param run  folder of the run, in the field data of the published channels: the array "run", its bytes
+  /// @param run_ends  whether the run is requested to end; called on the first rank, by another thread
   LivePipeline(const Ranks& ranks, std::string host, int port, std::uint32_t channels, const std::string& run,
                std::function<bool()> run_ends);
   ~LivePipeline() override;

@@ -6,8 +6,8 @@
 
 namespace breccia::insitu {
 
-/// MPI for one rank, where the solver runs without and ParaView needs it. One rank has nobody to talk to: Open MPI
-/// starts no daemon for it and listens to no network, unless the environment asks for that.
+/// MPI for one rank, if the solver runs without and ParaView needs it. Open MPI starts no daemon for it and listens to
+/// no network, unless the environment requires it.
 class OwnMpi {
  public:
   OwnMpi() {

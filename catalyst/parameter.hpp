@@ -18,7 +18,7 @@ struct Parameter {
 };
 using Parameters = std::map<std::string, Parameter>;
 
-/// As what a script asks for a parameter, told by its default.
+/// Kind of a parameter in a script, by its default.
 enum class ParameterKind { any, number, text };
 using KnownParameters = std::map<std::string, std::set<ParameterKind>>;
 

@@ -13,7 +13,7 @@
 
 namespace breccia::insitu {
 
-/// An instant as VTK sees it: null where a channel was not asked for. A channel has the same arrays, by name, type and
+/// An instant as VTK data: null if a channel was not requested. A channel has the same arrays, by name, type and
 /// components, on all ranks; elements and domains are vtkUnstructuredGrid, history is vtkTable, the others vtkPolyData.
 struct Frame {
   std::int64_t step = 0;
@@ -21,7 +21,7 @@ struct Frame {
   std::array<vtkSmartPointer<vtkDataObject>, BRECCIA_NUM_CHANNELS> channels{};
 };
 
-/// What is done with the frames of a run. Members are collective unless they say otherwise.
+/// Processes the frames of a run. Members are collective unless stated otherwise.
 class Pipeline {
  public:
   Pipeline() = default;
@@ -32,11 +32,11 @@ class Pipeline {
   /// Mask of the channels that it wants now, the same on all ranks; 0: nothing to do. Throws PipelineError.
   virtual std::uint32_t channels(std::int64_t step, double time) = 0;
 
-  /// Does its work on a frame that has all its channels. What it asks of the solver is added to `requests`.
+  /// Processes a frame that has all its channels. Its requests to the solver are added to `requests`.
   /// It may throw PipelineError on some ranks only, but not between its own collective operations.
   virtual void execute(const Frame& frame, BrecciaRequests& requests) = 0;
 
-  /// What there is to tell of it since the last call that is no failure, the same on all ranks; "" mostly.
+  /// Notice since the last call that is no failure, the same on all ranks; mostly "".
   [[nodiscard]] virtual std::string notice() { return {}; }
 
   /// Bytes written on this rank. Not collective.

@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::int32_t kMostPipelines = 32;
 
-/// "" when files can be made in the folder; permissions alone do not tell (root, read-only and full file systems).
+/// "" when files can be made in the folder; permissions alone are not sufficient (root, read-only and full file
+/// systems).
 std::string folder_problem(const char* folder) {
   const std::string path = folder == nullptr ? "" : folder;
   if (path.empty() || path[0] != '/')
@@ -66,7 +67,7 @@ void check_parameters(const PipelineChoice& choice, const KnownParameters& known
         problems.push_back(begin + "number, or a text with a unit; given: \"" + one_line(*value.text) + "\"");
       continue;
     }
-    std::string text = choice.name + ": knows no parameter '" + name + "'";
+    std::string text = choice.name + ": has no parameter '" + name + "'";
     if (known.empty()) text += ", it has none";
     const char* separator = "; allowed: ";
     for (const std::string& other : nearest_first(name, known)) {

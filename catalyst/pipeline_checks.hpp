@@ -16,8 +16,8 @@ using PipelineCheck = std::function<void(const PipelineChoice& choice, std::vect
 /// pipelines of one folder; and those of each pipeline.
 [[nodiscard]] std::vector<std::string> problems_of_pipelines(const BrecciaConfig& config, const PipelineCheck& check);
 
-/// Adds a problem for each parameter that is not among those known, which it names, the nearest first, and for each
-/// that is not of the kind that is asked for.
+/// Adds a problem for each parameter that is not among those known, which it names, the nearest first, and for each of
+/// another kind than required.
 void check_parameters(const PipelineChoice& choice, const KnownParameters& known, std::vector<std::string>& problems);
 
 }  // namespace breccia::insitu

@@ -22,7 +22,7 @@ template <class Call>
     } catch (const std::exception& failure) {
       error = failure.what();
     } catch (...) {
-      error = "has thrown what is no exception of C++'s";
+      error = "has thrown an object that is no exception";
     }
     return ranks.agree(error);
   } catch (const Abandoned& wait) {

@@ -19,7 +19,7 @@ namespace breccia::insitu {
 /// rank.
 class ProbePipeline final : public Pipeline {
  public:
-  /// @param fields  the arrays that are recorded; empty: all but those that tell of ranks, rank and cost
+  /// @param fields  the arrays that are recorded; empty: all except those of ranks, rank and cost
   ProbePipeline(const Ranks& ranks, const std::vector<Probe>& probes, std::vector<std::string> fields,
                 std::filesystem::path folder);
 

@@ -22,8 +22,8 @@ struct Place {
 };
 
 /// Finds the tetrahedra in which points lie; on a face between several, or where bodies overlap, that of the smallest
-/// id, so that it does not matter who looks first. A point up to 1e-9 of a tetrahedron's height outside counts as
-/// inside: none falls between neighbours by round-off.
+/// id, independent of the order of the search. A point up to 1e-9 of a tetrahedron's height outside counts as inside:
+/// none falls between neighbours by round-off.
 /// @param corners  (num_cells, 4, 3) m;  @param ids  (num_cells).  O(num_cells log points) and what lies nearby
 [[nodiscard]] std::vector<Place> places_of(const std::vector<Point>& points, std::int64_t num_cells,
                                            const double* corners, const std::int64_t* ids);

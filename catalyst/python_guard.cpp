@@ -35,7 +35,7 @@ PyObject* agree(PyObject* ranks, PyObject* text) {
   const char* mine = PyUnicode_AsUTF8(text);
   if (mine == nullptr) {
     PyErr_Clear();
-    mine = "an error whose text is no text";
+    mine = "an error without a text";
   }
   try {
     if (!abandoned.empty()) throw Abandoned(abandoned);

@@ -23,7 +23,7 @@ struct About {
 void start(const std::filesystem::path& pipelines, const std::filesystem::path& guard, const Ranks& ranks,
            ScriptWatch& watch);
 
-/// Tells breccia_insitu.py which pipeline runs from now on. Throws PipelineError.
+/// Sets the pipeline that runs from now on in breccia_insitu.py. Throws PipelineError.
 void enter(const std::string& name, const std::filesystem::path& script, const std::filesystem::path& folder,
            const Parameters& parameters, const About& about);
 

@@ -45,7 +45,7 @@ std::string Ranks::agree(const std::string& error) const {
 
 void Ranks::wait(MPI_Request& request, const std::string& error) const {
   using Clock = std::chrono::steady_clock;
-  constexpr double kLongestGap = 1;  // s between two looks; a longer one is of a process that was stopped, not waiting
+  constexpr double kLongestGap = 1;  // s between two polls; a longer one is of a process that was stopped, not waiting
   double waited = 0;
   Clock::time_point before = Clock::now();
   int done = 0;

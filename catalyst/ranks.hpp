@@ -9,7 +9,7 @@
 namespace breccia::insitu {
 
 /// The ranks of a run: a duplicate of the solver's communicator, or one rank without MPI. Members are collective unless
-/// they say otherwise.
+/// stated otherwise.
 class Ranks {
  public:
   /// @param communicator of Fortran (MPI_Comm_c2f), -1: one rank, MPI is not used

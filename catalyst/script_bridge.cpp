@@ -62,7 +62,7 @@ void ScriptBridge::set_turn(const std::filesystem::path& script) {
 void ScriptBridge::take_result(BrecciaRequests& requests) {
   if (!abandoned_.empty()) throw Abandoned(abandoned_);
   if (!error_.empty()) throw PipelineError(error_);
-  if (!done_) throw PipelineError("ParaView has not run the script; what it says of it stands above");
+  if (!done_) throw PipelineError("ParaView has not run the script; its messages are above");
   requests.stop |= requests_.stop;
   requests.pause |= requests_.pause;
   requests.extract |= requests_.extract;

@@ -19,10 +19,10 @@ struct BridgedScript {
   Parameters parameters;
 };
 
-/// The run as python/breccia_catalyst2.py sees it, the first script that ParaView's implementation is given: whose turn
-/// it is, whether another rank has failed; and what it tells in return: what the script raised, and what that asks of
-/// the solver. Catalyst 2 itself runs all scripts at every execution and keeps what they raise to itself. The script
-/// finds the functions by the address that it is given as its argument.
+/// Data exchanged with python/breccia_catalyst2.py, the first script of ParaView's implementation: the script to
+/// execute, whether another rank has failed; and in return the exception of the script, and its requests to the solver.
+/// Catalyst 2 itself runs all scripts at every execution and does not report their exceptions. The script finds the
+/// functions by the address in its argument.
 class ScriptBridge {
  public:
   /// One a process at a time. @pre ranks and watch outlive this
@@ -38,8 +38,8 @@ class ScriptBridge {
   /// The script that is to run in the next execution; empty: none.
   void set_turn(const std::filesystem::path& script);
 
-  /// What the turn ended with: throws PipelineError with what the script raised, or when it was not run; Abandoned when
-  /// other ranks have not come in time. Adds what it asks for.
+  /// Result of the execution: throws PipelineError with the exception of the script, or when it was not run; Abandoned
+  /// when other ranks have not come in time. Adds its requests.
   void take_result(BrecciaRequests& requests);
 
  private:

@@ -12,7 +12,7 @@
 
 namespace breccia::insitu {
 
-/// What a script needs, as far as its text tells; python/check_script.py says how that is found.
+/// Requirements of a script by its text, found by python/check_script.py.
 struct ScriptNeeds {
   bool draws = false;
   std::uint32_t channels = 0;  ///< mask of the channels that it names; all when it names none

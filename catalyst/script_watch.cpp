@@ -22,9 +22,9 @@ int interrupt(void*) {
   return -1;
 }
 
-/// Asks Python to call interrupt() in the run's own thread. That thread keeps Python to itself unless another one asks
-/// for it, and looks at what is pending when it gets it back. Waits for as long as it does not come back to Python, so
-/// in a thread of its own that is not joined; one at a time.
+/// Requests that Python calls interrupt() in the run's own thread. That thread keeps the interpreter lock unless
+/// another one requests it, and handles pending calls when it gets it back. Waits until it returns to Python, so in a
+/// thread of its own that is not joined; one at a time.
 void ask_python(double limit) {
   overdue = limit;
   static std::atomic<bool> asking{false};

@@ -31,7 +31,7 @@ class SelectedInstant {
   /// Valid until the next call, and as long as what it is given. O(cells). Throws PipelineError on cells of no known
   /// kind, and where elements or surface lack a value at points.
   [[nodiscard]] const BrecciaInstant& of(const BrecciaInstant& whole);
-  /// Whether values at points are asked for.
+  /// Whether values at points are requested.
   [[nodiscard]] bool has_points() const { return !selection_.point_fields.empty(); }
 
  private:

@@ -7,14 +7,14 @@
 namespace breccia::insitu {
 namespace {
 
-constexpr auto kBetweenLooks = std::chrono::seconds(1);
+constexpr auto kPollInterval = std::chrono::seconds(1);
 constexpr double kEnd = 3.0;     ///< times the limit: the program ends
 constexpr int kFaultOfOurs = 4;  ///< exit code
 
 }  // namespace
 
 TurnWatch::TurnWatch(double limit, const Interruption& interruption) : limit_(limit), interruption_(interruption) {
-  if (limit > 0.0) thread_.emplace(kBetweenLooks, [this] { look(); });
+  if (limit > 0.0) thread_.emplace(kPollInterval, [this] { look(); });
 }
 
 void TurnWatch::withdraw() const {

@@ -8,16 +8,15 @@
 
 namespace breccia::insitu {
 
-/// How the code of a pipeline can be asked to return. Called with the watch's lock held; each may be null.
+/// How the code of a pipeline can be requested to return. Called with the watch's mutex locked; each may be null.
 struct Interruption {
   void (*begin)() = nullptr;            ///< a turn begins
   void (*ask)(double limit) = nullptr;  ///< it has taken more than the limit, s
   void (*withdraw)() = nullptr;         ///< it has come back, or counts anew
 };
 
-/// Ends what a pipeline does without end. It is asked to come back, where there is a way to, when it has taken `limit`,
-/// and again every second; at three times the limit the program ends, with a line that names it, since no rank could go
-/// on.
+/// Ends a pipeline that does not return. It is requested to return, if possible, after `limit`, and again every second;
+/// at three times the limit the program ends, with a line that names it, since no rank could continue.
 class TurnWatch {
  public:
   /// @param limit  s; 0: none

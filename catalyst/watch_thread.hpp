@@ -8,22 +8,22 @@
 
 namespace breccia::insitu {
 
-/// A thread that looks now and then after a call of the run's own thread, as long as that call goes on.
+/// A thread that monitors a call of the run's own thread at intervals, during that call.
 class WatchThread {
  public:
-  /// @param look  called with the mutex held, at these intervals, while a call goes on
+  /// @param look  called with the mutex locked, at these intervals, during a call
   WatchThread(std::chrono::milliseconds interval, std::function<void()> look);
   WatchThread(const WatchThread&) = delete;
   WatchThread& operator=(const WatchThread&) = delete;
   ~WatchThread();
 
-  /// A call begins or has ended. @param change  of what `look` reads, with the mutex held
+  /// A call begins or has ended. @param change  of the data that `look` reads, with the mutex locked
   void begin(const std::function<void()>& change);
   void end(const std::function<void()>& change);
   /// Changes what `look` reads in between.
   void change(const std::function<void()>& change);
-  /// Time for which this process was stopped, as a suspended job is, while calls went on: no call has taken it. To be
-  /// read with the mutex held: in `look` or in a change.
+  /// Time for which this process was stopped, as a suspended job is, during calls: it does not count as time of a call.
+  /// To be read with the mutex locked: in `look` or in a change.
   [[nodiscard]] std::chrono::duration<double> stopped() const { return stopped_; }
 
  private:

@@ -10,7 +10,7 @@ namespace breccia::insitu {
 enum class Sync { yes, no };  ///< whether content is on the disk, for a crash of the machine too, before its name is
 
 /// Replaces a file at once: a temporary beside it is written, synced and renamed, so that a kill leaves the old or the
-/// new content. Returns the bytes written. Throws PipelineError "path: what: reason"; then the temporary is gone.
+/// new content. Returns the bytes written. Throws PipelineError "path: what: reason"; then the temporary is removed.
 std::int64_t replace_file(const std::filesystem::path& path, std::string_view content, Sync sync = Sync::yes);
 
 /// Appends at the end of a file, which is made when it is not there. Throws PipelineError; then nothing is appended.

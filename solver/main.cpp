@@ -40,10 +40,10 @@ void stop_handler(int signal) {
   (void)!::write(STDERR_FILENO, words, sizeof words - 1);
 }
 
-/// A checkpoint is written while the run goes on.
+/// A checkpoint is written during the run.
 void checkpoint_handler(int) { checkpoint_requested = true; }
 
-/// What is freed is soon asked for again, above all when elements change ranks; getting large blocks anew from the
+/// Freed memory is soon allocated again, above all when elements change ranks; getting large blocks anew from the
 /// kernel each time costs more than the work on them.
 void keep_freed_memory() {
   mallopt(M_MMAP_MAX, 0);
@@ -87,7 +87,7 @@ int report(bool prints, const std::string& what, ExitCode exit_code) {
   return code(exit_code);
 }
 
-/// Standard output cannot be written: its disk is full, say. A pipe that nobody reads any more is no error to report.
+/// Standard output cannot be written, for example to a full disk. A pipe without a reader is not reported.
 /// @param error  errno, 0 where it is not known
 int lost_output(int error) {
   if (error == EPIPE) return exit_code_of(SIGPIPE);
@@ -102,8 +102,8 @@ int with_output_written(int done) {
   return written || done != 0 ? done : lost_output(errno);
 }
 
-/// Errors of the first three kinds are agreed upon: all ranks have the same one and one of them tells it. Others are of
-/// one rank, and the rest would wait for it for ever.
+/// Errors of the first three kinds are agreed upon: all ranks have the same one and one of them reports it. Others are
+/// of one rank, and the rest would wait for it for ever.
 int guarded(CommandLine& line, MpiSession& session, int argc, char** argv) {
   const bool root = session.world().is_root();
   int ended = 0;
@@ -154,8 +154,8 @@ int main(int argc, char** argv) {
     for (const int s : kEndingSignals) handle_unless_ignored(s, stop_handler);
     std::signal(SIGUSR1, checkpoint_handler);
   }
-  std::signal(SIGPIPE, SIG_IGN);  // who reads the progress may go; the run goes on
-  std::signal(SIGXFSZ, SIG_IGN);  // a file over its limit is an error of the write, told with the file's name
+  std::signal(SIGPIPE, SIG_IGN);  // the reader of the progress may end; the run continues
+  std::signal(SIGXFSZ, SIG_IGN);  // a file over its limit is an error of the write, reported with the file's name
   const int ended = guarded(line, session, argc, argv);
   reports_signals = 0;  // mpiexec ends the ranks that are last to go where one has failed
   return ended;

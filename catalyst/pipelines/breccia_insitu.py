@@ -1,4 +1,4 @@
-"""What a Catalyst script may know of the Breccia run that executes it, and what it may ask of it.
+"""Data of the Breccia run that executes a Catalyst script, and requests of the script to the run.
 
     import breccia_insitu
 
@@ -21,7 +21,7 @@ REQUESTS = ("stop", "pause", "extract", "frame_interval")
 
 
 def set_active(name, folder, parameters, about):
-    """Called by the adaptor whenever a script's turn begins."""
+    """Called by the adaptor before each execution of a script."""
     global _name, _folder, _parameters, _about
     _name, _folder, _parameters, _about = name, folder, dict(parameters), dict(about)
 
@@ -40,7 +40,7 @@ def parameter(name, default):
     """One of the pipeline's parameters in the case file, or the default. Where the default is a text it is the text, as it is written; else a
     number, in SI, a whole one where the default is one.
 
-    Write name and default as literals: before a run it is checked which parameters a pipeline knows, and of what kind.
+    Write name and default as literals: names and kinds of parameters are checked before a run.
     """
     if name not in _parameters:
         return default
@@ -78,7 +78,7 @@ def set_request(function):
 
 
 def request(info, **wishes):
-    """Asks the solver to stop, pause or extract (1), or to change its frame_interval (s); `info` is that of catalyst_execute."""
+    """Requests that the solver stops, pauses or extracts (1), or changes its frame_interval (s); `info` is that of catalyst_execute."""
     for name, value in wishes.items():
         if name not in REQUESTS:
             raise ValueError(f"{name} cannot be requested; what can: {', '.join(REQUESTS)}")

@@ -1,7 +1,7 @@
-"""What Breccia's picture pipelines share: the look of a view, where its camera stands, words over it, ranges of colours, sums over ranks.
+"""Common parts of Breccia's picture pipelines: style of a view, camera position, captions, ranges of colours, sums over ranks.
 
-A picture tells its case, its subject, time and step, has a key to its colours and a length scale, and its colours mean the same in all
-pictures of a run, but where it says since when they mean more. Parameters of every picture: width, height (pixels), azimuth, elevation
+A picture shows its case, subject, time and step, a colour bar and a length scale. The colour range is the same in all pictures of a
+run; where it had to grow, a caption states since when. Parameters of every picture: width, height (pixels), azimuth, elevation
 (degrees, from the front: along -z, y up), zoom, and orbit: so many pictures around the model, as a Cinema database (data.csv names every
 picture); 0: one picture.
 """
@@ -137,7 +137,7 @@ class Range:
         return self.upper or 1.0
 
     def news(self):
-        """A line that tells since when it is what it is; "" when it always was."""
+        """A line with the time since which the range is the present one; "" if it has not changed."""
         return "" if self._since is None else f"{self._name} up to {quantity(self.upper, self._unit)} since t = {quantity(self._since, 's')}"
 
 
@@ -181,7 +181,7 @@ class Picture:
             self.extractor.Writer.FileName = name + "_{timestep:09d}.png"
 
     def words(self, text, size=1.0, colour=INK, bold=False):
-        """Words over the picture; stand(...) says where. Returns the text and how it is shown."""
+        """Caption over the picture; stand(...) sets its position. Returns the text and its representation."""
         source = Text(Text=text)
         shown = Show(source, self.view)
         shown.WindowLocation = "Any Location"
@@ -212,7 +212,7 @@ class Picture:
         return shown
 
     def bodies(self, surface):
-        """Shows bodies in a shade each, or two of the same attitude could not be told from each other."""
+        """Shows bodies in a shade each, as two of the same orientation could not be distinguished otherwise."""
         self._bodies = surface, self.coloured(surface, "body", STONES, None)
 
     def _shade_bodies(self):
@@ -225,7 +225,7 @@ class Picture:
             self._moved.append((shown, copy))
 
     def opened(self, surface, copy=0):
-        """Shows the bodies as shells whose near side is left out, so that one looks at what is inside. Nothing here is translucent:
+        """Shows the bodies as shells without their near side, so that the inside is visible. Nothing here is translucent:
         ranks would have to trade their geometry for it, which takes long and fails with the XML parser of Debian 12 (expat)."""
         self.solid(outside(surface), STONE, copy).BackfaceRepresentation = "Cull Frontface"
 
@@ -318,7 +318,7 @@ class Picture:
         os.replace(temporary, os.path.join(folder, "data.csv"))
 
     def place_camera(self, producer):
-        """Where the parameters say, so that the channel is seen whole; once, so that pictures can be laid over each other."""
+        """Places the camera by the parameters so that the whole channel is visible; once, so that pictures can be compared."""
         if self._placed:
             return
         low, high = bounds_of(producer)
@@ -381,7 +381,7 @@ class Picture:
 
 
 def listed_times(file, pattern):
-    """Times by step of the pictures that a table lists: those drawn before the run was stopped, which goes on here."""
+    """Times by step of the pictures that a table lists: those drawn before the run was interrupted and resumed."""
     times = {}
     try:
         if not stat.S_ISREG(os.lstat(file).st_mode):  # not to be led elsewhere, or to wait for a pipe

@@ -129,7 +129,7 @@ def finish(function):
 
 
 def report(kind, error, trace):
-    """ParaView prints what it is raised through this hook; what a script has raised is told by the solver."""
+    """ParaView prints exceptions through this hook; the solver reports those of scripts."""
     if kind is not breccia_guard.ScriptFailed:
         sys.__excepthook__(kind, error, trace)
 

@@ -1,7 +1,7 @@
 """Stands between ParaView Catalyst and the scripts that it runs; the adaptor calls it.
 
 What a script raises is kept as one line instead of being printed as a traceback; when it raises on one rank, it has raised on all of them, so
-that no rank goes on alone into work that needs the others; sys.exit ends the script's step, not the process.
+that no rank continues alone into work that needs the others; sys.exit ends the script's step, not the process.
 """
 
 import os
@@ -19,9 +19,9 @@ _spare = None
 
 
 def install(agree, spare):
-    """Wraps the functions through which ParaView calls scripts. Once is enough, twice does no harm. agree(text) tells whether any rank
-    brings a text; it raises when others do not come. spare(display) lets the process go on when the server of an X display, an address, has
-    gone."""
+    """Wraps the functions through which ParaView calls scripts. May be called more than once. agree(text) is true if any rank passes a
+    text; it raises if another rank does not take part. spare(display) keeps the process alive when the server of an X display, an address,
+    has closed."""
     global _agree, _spare
     from paraview.catalyst import detail, v2_internals
 
@@ -53,7 +53,7 @@ def _channel_of_source(name):
 
 
 def enter(name, script, folder, parameters, about):
-    """A pipeline's turn begins."""
+    """Called before each execution of a pipeline."""
     global _error, _script
     _error = ""
     _script = script
@@ -92,7 +92,7 @@ def _guarded(function):
 
 
 def _spare_windows():
-    """Xlib ends a process whose server has gone, unless it is told of each link otherwise; views make theirs when they are first drawn."""
+    """Xlib ends a process whose server has closed, unless a handler is set for each connection; views connect when they are first drawn."""
     from paraview import servermanager
     from paraview.modules.vtkRemotingViews import vtkPVProcessWindow
 

@@ -1,4 +1,4 @@
-"""Reads a Catalyst script without running it and tells what it needs; run by the plain Python interpreter, before any ParaView.
+"""Reads a Catalyst script without running it and lists its requirements; run by the plain Python interpreter, before any ParaView.
 
 usage: check_script.py SCRIPT PIPELINES FIELDS POINTS CHANNEL...
 PIPELINES is a folder of modules that scripts may import; FIELDS the only arrays that the script is handed, a,b,c, or nothing: all; POINTS those
@@ -8,8 +8,8 @@ that it gets at points too, nothing: none. Prints lines of a word and a text:
   lacks what                 this interpreter cannot run it; that of another ParaView may
   draws                      it makes pictures, so it needs a display
   channel name               a channel that it names as a source
-  parameter name             a parameter that it asks breccia_insitu for
-  text name, number name     the same, where its default tells its kind
+  parameter name             a parameter that it requests from breccia_insitu
+  text name, number name     the same, with the kind of its default
   any_parameter              it computes the names of parameters
 """
 
@@ -108,7 +108,7 @@ def wrong_sources(tree, channels):
 
 
 def kind_of(call):
-    """What a parameter is asked for as, told by its default: "text", "number", or "parameter" where that is computed or None."""
+    """Kind of a requested parameter by its default: "text", "number", or "parameter" if the default is computed or None."""
     default = next((keyword.value for keyword in call.keywords if keyword.arg == "default"), call.args[1] if len(call.args) > 1 else None)
     if isinstance(default, ast.UnaryOp):
         default = default.operand
@@ -118,7 +118,7 @@ def kind_of(call):
 
 
 def wrong_arrays(tree, used, fields):
-    """Arrays asked for as ("CELLS", name) that no channel in use has and that the script does not make, where it is known what is meant."""
+    """Arrays requested as ("CELLS", name) that no channel in use has and that the script does not make, if the name is a literal."""
     pairs = [node for node in ast.walk(tree) if isinstance(node, (ast.List, ast.Tuple)) and len(node.elts) == 2
              and literal(node.elts[0]) == "CELLS" and literal(node.elts[1])]
     texts = [literal(node) for node in ast.walk(tree) if literal(node)]
@@ -137,7 +137,7 @@ def wrong_arrays(tree, used, fields):
 
 
 def missing_at_points(tree, points):
-    """Arrays asked for as ("POINTS", name) that a channel has at points only on demand, in a script that makes none itself."""
+    """Arrays requested as ("POINTS", name) that a channel has at points only on demand, in a script that makes none itself."""
     if any(MAKES_POINT_ARRAYS.fullmatch(called(node)) for node in ast.walk(tree) if isinstance(node, ast.Call)):
         return
     for pair in (node for node in ast.walk(tree) if isinstance(node, (ast.List, ast.Tuple)) and len(node.elts) == 2):

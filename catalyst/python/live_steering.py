@@ -1,7 +1,7 @@
 """The panel by which the view of `breccia live` steers the run that it watches.
 
-It is the source "Run" in ParaView's pipeline browser: what is set in its properties is asked of the run when Apply is pressed, as
-`breccia control` does it, with its list of commands, and the answer is told in the view. The run is the one whose folder comes with its data,
+It is the source "Run" in ParaView's pipeline browser: its properties become requests to the run when Apply is pressed, as by
+`breccia control`, with the same commands, and the view shows the answer. The run is the one whose folder comes with its data,
 field data "run"; it must be on this machine.
 """
 
@@ -11,14 +11,14 @@ import subprocess
 from paraview import servermanager
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-ASKED = ("", "pause", "resume", "extract", "frame", "stop")
+REQUESTS = ("", "pause", "resume", "extract", "frame", "stop")
 NAME = "Run"
 PATIENCE = "20"  # s, for the answer
 PANEL = """<ServerManagerConfiguration><ProxyGroup name="sources">
 <SourceProxy name="BrecciaRun" class="vtkPVTrivialProducer" label="Run">
-<Documentation short_help="What is asked of the run.">What is asked of the run when Apply is pressed.</Documentation>
-<IntVectorProperty name="Ask" label="Ask the run to" number_of_elements="1" default_values="0">
-<EnumerationDomain name="enum"><Entry value="0" text="go on as it is"/><Entry value="1" text="pause"/><Entry value="2" text="resume"/>
+<Documentation short_help="Requests to the run.">Requests to the run, sent when Apply is pressed.</Documentation>
+<IntVectorProperty name="Request" label="Request" number_of_elements="1" default_values="0">
+<EnumerationDomain name="enum"><Entry value="0" text="none"/><Entry value="1" text="pause"/><Entry value="2" text="resume"/>
 <Entry value="3" text="extract now"/><Entry value="4" text="write a frame now"/><Entry value="5" text="stop, with a checkpoint"/>
 </EnumerationDomain></IntVectorProperty>
 <StringVectorProperty name="FrameInterval" label="Frame interval" number_of_elements="1" default_values="">
@@ -46,7 +46,7 @@ def folder_of(data):
 
 
 class Steering:
-    """@param program: breccia, "": the run is steered elsewhere; say(line): tells; show_open_by(m or None): of cracks"""
+    """@param program: breccia, "": the run is controlled elsewhere; say(line): shows a line; show_open_by(m or None): filters cracks"""
 
     def __init__(self, program, say, show_open_by):
         self._program, self._say, self._show_open_by = program, say, show_open_by
@@ -65,7 +65,7 @@ class Steering:
         return bool(self._program) and os.path.isabs(self.folder) and os.path.isdir(self.folder)
 
     def ask(self, command):
-        """Asks the run for one thing after the other."""
+        """Sends one request after the other to the run."""
         if not self._program:
             self._say("this view was not opened by `breccia live` and cannot steer the run")
         elif not self.folder:
@@ -99,13 +99,13 @@ class Steering:
                 self._say(f"{command}: {error}")
                 return
             self._asked = command, process
-            self._say(f"asked to {command}")
+            self._say(f"requested: {command}")
 
     def _take_panel(self):
         proxy = self.panel.SMProxy
-        asked = ASKED[proxy.GetProperty("Ask").GetElement(0)]
+        asked = REQUESTS[proxy.GetProperty("Request").GetElement(0)]
         if asked:
-            proxy.GetProperty("Ask").SetElement(0, 0)
+            proxy.GetProperty("Request").SetElement(0, 0)
             proxy.UpdateVTKObjects()
             self.ask(asked)
         interval = proxy.GetProperty("FrameInterval").GetElement(0).strip()

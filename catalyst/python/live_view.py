@@ -2,7 +2,7 @@
 
 Listens on $BRECCIA_LIVE_PORT for a run with --live, takes its channels as they come, and shows the surface by stress, cracks by the time at
 which they opened, the boxes of the ranks, the run's time, and its energies. When the run ends the last picture stays; the next run that
-connects takes its place. $BRECCIA_LIVE_TITLE, _END (s) and _STRENGTH (Pa) tell of the run what the view cannot know, _PROGRAM is what steers it
+connects takes its place. $BRECCIA_LIVE_TITLE, _END (s) and _STRENGTH (Pa) pass data of the run that the view has no other source for; _PROGRAM controls the run
 (live_steering.py).
 """
 
@@ -23,7 +23,7 @@ import live_steering
 
 
 def told(name, default):
-    """What `breccia live` says of the run."""
+    """Texts of `breccia live` about the run."""
     return os.environ.get(f"BRECCIA_LIVE_{name}", default)
 
 
@@ -124,12 +124,12 @@ class Bodies:
         self.add("")
 
     def add(self, line):
-        """A further line, until others are said."""
+        """A further line, until it is replaced."""
         told, until = self._told
         self._source.Text = "\n".join(filter(None, (TITLE, *self._lines, line, told if clock.time() < until else "")))
 
     def tell(self, line):
-        """A line that stands for a while, whatever else is said."""
+        """A line that remains for a while beside the others."""
         self._told = textwrap.fill(line, WIDTH), clock.time() + TOLD
         self.add("")
         Render(self.view)
@@ -240,7 +240,7 @@ class Link:
         self._closed = True
 
     def look(self, *_):
-        """Takes what the run has sent since the last look."""
+        """Reads the data that the run has sent since the last call."""
         warns = vtkObject.GetGlobalWarningDisplay()
         vtkObject.GlobalWarningDisplayOff()  # a run that ends is no error
         try:
@@ -264,7 +264,7 @@ class Link:
         self._take(self._news())
 
     def pause(self, pause):
-        """Holds the run at its next update, or lets it go on."""
+        """Pauses the run at its next update, or resumes it."""
         if self.link.GetInsituProxyManager() is None:
             return
         if self.steering.can_steer():
@@ -307,7 +307,7 @@ class Link:
 
 
 def start():
-    """The view, in a window of ParaView; looks at the link as long as the window is open."""
+    """The view, in a window of ParaView; polls the connection while the window is open."""
     global link
     bodies = Bodies()
     link = Link(bodies, Plot(bodies.view))

@@ -12,7 +12,7 @@ QString stage_text(const char* words) { return QCoreApplication::translate("stag
 
 QString plain(const std::string& name) { return QString::fromStdString(name).replace('_', ' '); }
 
-/// What tells an entry from its neighbours: its name, group, surface or pair.
+/// Distinguishes an entry from its neighbours: its name, group, surface or pair.
 QString title_of(const std::string& path, const TomlPlaces& places) {
   for (const char* key : {"name", "group", "surface", "between"}) {
     const std::string own = path + "." + key;

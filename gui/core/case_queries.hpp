@@ -10,13 +10,13 @@
 
 namespace breccia::gui {
 
-/// What the solver is asked about a case.
+/// Kind of a query to the solver about a case.
 enum class Query { check, mesh, domains, joints, parameters };
 /// For messages.
 [[nodiscard]] QString words_of(Query query);
 
-/// What the solver's commands say of the case as it is edited, saved or not: a draft beside the case is what they read,
-/// so that relative names hold.
+/// Reports of the solver's commands on the edited case, saved or not: they read a draft beside the case, so that
+/// relative names remain valid.
 class CaseQueries final : public QObject {
   Q_OBJECT
  public:
@@ -28,7 +28,7 @@ class CaseQueries final : public QObject {
   void mesh();
   void domains(int ranks);
   void joints();
-  /// What the geometry of the case lets it set; nothing is asked where there is none.
+  /// Parameters that the geometry of the case offers; no query without a geometry.
   void parameters();
   [[nodiscard]] bool busy() const {
     return check_.busy() || mesh_.busy() || domains_.busy() || joints_.busy() || parameters_.busy();
@@ -42,20 +42,20 @@ class CaseQueries final : public QObject {
   void divided(const QJsonObject& json);
   void joints_told(const QJsonObject& json);
   void parameters_told(const QJsonObject& json);
-  /// @param asked  text of the case that was asked about, which may have been edited since
+  /// @param asked  text of the case at the query, which may have been edited since
   void failed(Query what, const QString& text, const std::vector<breccia::Problem>& problems, const QByteArray& asked);
 
  private:
-  /// Asks with a command line of which the file that the command reads is the second word.
+  /// Sends a query: a command line whose second word is the file that the command reads.
   void ask(SolverQuery& query, Query what, const QString& command, const QStringList& options);
-  /// The file that a command reads. Empty: it could not be written, told by `failed`.
+  /// The file that a command reads. Empty: it could not be written, reported by `failed`.
   [[nodiscard]] QString draft(Query what);
 
   const Document& document_;
   QString program_;
   QTemporaryDir scratch_{QDir::temp().filePath(own_name("preview") + "-XXXXXX")};
   SolverQuery check_, mesh_, domains_, joints_, parameters_;
-  QMap<const SolverQuery*, QByteArray> asked_;  ///< text of the case when each was asked
+  QMap<const SolverQuery*, QByteArray> asked_;  ///< text of the case at each query
   int meshes_ = 0;
   QString draft_;
 };

@@ -20,8 +20,8 @@
 namespace breccia::gui {
 namespace {
 
-/// Whether the process that wrote a snapshot still runs. Its number alone does not tell: after a restart of the machine
-/// another process may have it.
+/// Whether the process that wrote a snapshot still runs. Its number alone is not sufficient: after a restart of the
+/// machine another process may have it.
 bool writer_runs(const QJsonObject& snapshot) {
   const std::optional<qint64> start = start_of_process(static_cast<pid_t>(snapshot["process"].toDouble()));
   return start && (!snapshot.contains("started") || *start == static_cast<qint64>(snapshot["started"].toDouble()));
@@ -148,7 +148,7 @@ QString Document::reload() {
   QFile in(file_);
   if (!in.open(QIODevice::ReadOnly)) return tr("%1 cannot be read: %2").arg(file_, in.errorString());
   on_disk_ = in.readAll();
-  push(difference(places_.text(), on_disk_.toStdString()), tr("take over the file"));
+  push(difference(places_.text(), on_disk_.toStdString()), tr("reload the file"));
   undo_.setClean();
   remove_snapshot();
   return {};

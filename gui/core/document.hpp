@@ -12,7 +12,7 @@
 
 namespace breccia::gui {
 
-/// What an earlier session that ended without saying so has left.
+/// Unsaved edits of an earlier session that was killed.
 struct Recovery {
   QString snapshot;  ///< file of the state folder
   QString file;      ///< of the case
@@ -46,7 +46,7 @@ class Document final : public QObject {
   [[nodiscard]] bool changed_on_disk() const;
   /// The file is there and holds what was last read or written here.
   [[nodiscard]] bool is_on_disk() const;
-  /// Takes over what another program has written, as an edit that can be undone. Returns what went wrong.
+  /// Loads the changes of another program, as an edit that can be undone. Returns the error, if any.
   [[nodiscard]] QString reload();
   /// Ends the work on this case; the snapshot is removed.
   void close();
@@ -72,8 +72,8 @@ class Document final : public QObject {
   /// The whole text at once, as one edit. @param words  what it does
   void take_text(const std::string& text, const QString& words);
 
-  /// What the solver's reader says of the present text, with its words. Where that is nothing and the mesh is known:
-  /// what it says of the names of groups.
+  /// Problems that the solver's reader reports for the present text. If there are none and the mesh is known: problems
+  /// of the names of groups.
   [[nodiscard]] std::vector<Problem> problems(const std::optional<MeshGroups>& mesh = {}) const;
   /// True when the text, as it is shown, gives back the same bytes: UTF-8, one kind of line ends.
   [[nodiscard]] bool editable_as_text() const;
@@ -104,7 +104,7 @@ class Document final : public QObject {
   QString state_folder_, file_;
   bool open_ = false;
   TomlPlaces places_;
-  QByteArray on_disk_;  ///< what the file held when it was last read or written here
+  QByteArray on_disk_;  ///< content of the file when it was last read or written here
   QUndoStack undo_;
   QTimer autosave_;
 };

@@ -47,7 +47,7 @@ class FunctionEdit {
   [[nodiscard]] const QStringList& components() const { return components_; }
   /// Whether a component may be missing: it is then not prescribed.
   [[nodiscard]] bool may_be_missing() const { return key_->type == case_::ValueType::axis_functions; }
-  /// Whether its components can be told apart in the text.
+  /// Whether its components can be distinguished in the text.
   [[nodiscard]] bool is_readable() const;
   [[nodiscard]] std::vector<FunctionPart> parts(int component) const;
   [[nodiscard]] std::vector<FunctionNumber> numbers(const FunctionPart& part) const;
@@ -71,7 +71,7 @@ class FunctionEdit {
   /// units in brackets are those of the numbers that have none.
   [[nodiscard]] static std::vector<Row> rows_of(const QString& csv);
 
-  /// What the solver's reader says of the value.
+  /// Problems that the solver's reader reports for the value.
   [[nodiscard]] std::vector<Problem> problems() const;
   /// Of each component over the run, as the solver reads it. Empty where it does not, and of one that is missing.
   [[nodiscard]] std::vector<PlotLine> curves() const;

@@ -21,7 +21,7 @@ struct LengthUnit {
 /// Patterns of a dialog for files: "*.inp", "*.INP", ... @param scripts  those of gmsh as well, which may need others
 [[nodiscard]] QStringList geometry_patterns(bool scripts);
 
-/// Whether the user has to say what the lengths of this file are.
+/// Whether the user has to state the unit of this file.
 [[nodiscard]] bool needs_unit(const QString& file);
 
 /// Edges of the box in the answer of `breccia mesh FILE --json`, in units of the file.

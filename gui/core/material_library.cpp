@@ -102,7 +102,10 @@ QString UserLibrary::trouble() const {
   int entries = 0;
   for (auto match = entry.globalMatch(QString::fromUtf8(text)); match.hasNext(); match.next()) ++entries;
   if (static_cast<int>(read_materials(text).size()) == entries && (entries > 0 || text.trimmed().isEmpty())) return {};
-  return Document::tr("%1 holds what is no material with a name, and would lose it; mend or move the file").arg(file_);
+  return Document::tr(
+             "%1 has entries that are no named materials and would be lost; correct or move the "
+             "file")
+      .arg(file_);
 }
 
 QString UserLibrary::save(const std::vector<LibraryMaterial>& list) const {

@@ -24,7 +24,8 @@ std::vector<MeshParameter> mesh_parameters(const QJsonObject& answer) {
     const QJsonObject row = value.toObject();
     MeshParameter parameter{{}, row["default"].toString(), row["words"].toString()};
     for (const QJsonValue& name : row["names"].toArray())
-      if (!name.toString().contains('.')) parameter.names << name.toString();  // a path would not be told from it
+      if (!name.toString().contains('.'))
+        parameter.names << name.toString();  // it could not be distinguished from a path
     if (!parameter.names.isEmpty()) found.push_back(std::move(parameter));
   }
   return found;

@@ -10,10 +10,10 @@
 
 namespace breccia::gui {
 
-/// A number that a geometry lets the case set, as the solver tells.
+/// A number of a geometry that the case can set, as reported by the solver.
 struct MeshParameter {
   QStringList names;  ///< any of them sets it
-  QString fallback;   ///< what it is unless it is set, as the geometry has it; empty: not told
+  QString fallback;   ///< its default in the geometry; empty: not stated
   QString words;      ///< comment of the geometry
   friend bool operator==(const MeshParameter&, const MeshParameter&) = default;
 };
@@ -30,8 +30,8 @@ struct ParameterRow {
   friend bool operator==(const ParameterRow&, const ParameterRow&) = default;
 };
 
-/// Those of the geometry in its order, then what the case sets beside. Empty where mesh.parameters is no table.
-/// @param known  of the geometry; none: it has not been told
+/// Those of the geometry in its order, then others that the case sets. Empty if mesh.parameters is no table.
+/// @param known  of the geometry; none: not reported yet
 [[nodiscard]] std::vector<ParameterRow> parameter_rows(const std::optional<std::vector<MeshParameter>>& known,
                                                        const TomlPlaces& places);
 

@@ -8,8 +8,8 @@
 
 namespace breccia::gui {
 
-/// Work on another thread whose result is told on this one. Of what is asked for while something is worked at, the last
-/// is done next, and nothing is told of the others.
+/// Work on another thread whose result is delivered on this one. Of several requests during a task the last is done
+/// next, and the others are dropped.
 template <class Result>
 class NewestTask {
  public:
@@ -35,11 +35,11 @@ class NewestTask {
     if (watcher_.isRunning()) {
       next_ = std::move(work);
     } else {
-      next_.reset();  // what was under way may have ended without having been told yet
+      next_.reset();  // the current task may have ended without its result being delivered
       watcher_.setFuture(QtConcurrent::run(std::move(work)));
     }
   }
-  /// Nothing is told of what is under way.
+  /// Drops the result of the current task.
   void forget() {
     wanted_ = false;
     next_.reset();

@@ -65,7 +65,9 @@ std::vector<Template> templates(const Places& places) {
       {"block_drop", "case.toml", QT_TRANSLATE_NOOP("templates", "Armour block dropped"),
        QT_TRANSLATE_NOOP("templates", "A block falls onto a floor under its weight.")},
       {"cooling_tower", "case_smoke.toml", QT_TRANSLATE_NOOP("templates", "Cooling tower"),
-       QT_TRANSLATE_NOOP("templates", "A hyperboloid shell of concrete on its foundation settles under its weight.")},
+       QT_TRANSLATE_NOOP("templates",
+                         "A hyperboloid shell of concrete on its foundation comes to rest under its "
+                         "weight.")},
       {"hertz_impact", "case.toml", QT_TRANSLATE_NOOP("templates", "Sphere bounces off a plate"),
        QT_TRANSLATE_NOOP("templates", "Elastic impact, to be compared with Hertz.")},
       {"cantilever", "case.toml", QT_TRANSLATE_NOOP("templates", "Cantilever"),

@@ -15,7 +15,7 @@ struct Template {
   QString picture;    ///< absolute; empty: none
 };
 
-/// Where things are on this machine. The environment may say otherwise: BRECCIA_PROGRAM, BRECCIA_MESHES,
+/// Places of program and files on this machine. The environment may override them: BRECCIA_PROGRAM, BRECCIA_MESHES,
 /// BRECCIA_PROJECTS, BRECCIA_STATE.
 struct Places {
   Launch launch;

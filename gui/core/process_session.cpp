@@ -16,7 +16,7 @@
 namespace breccia::gui {
 namespace {
 
-/// What /proc tells of a process.
+/// Entry of /proc for a process.
 struct Entry {
   char state = '?';
   pid_t session = 0;

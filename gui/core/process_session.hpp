@@ -14,11 +14,11 @@ namespace breccia::gui {
 
 struct Session {
   pid_t leader = 0;
-  qint64 started = 0;  ///< of the leader, ticks since boot: tells it from a later process of the same number
+  qint64 started = 0;  ///< of the leader, ticks since boot: distinguishes it from a later process of the same number
 };
 
-/// When a process started, ticks since boot. Nothing: there is none of this number, or it has ended and only its parent
-/// has not heard of it yet.
+/// Start of a process, ticks since boot. Nothing: there is none of this number, or it has ended and its parent has not
+/// received its status yet.
 [[nodiscard]] std::optional<qint64> start_of_process(pid_t process);
 
 /// Starts a program in a new session, its output at the end of a file. @param error  out: what went wrong
@@ -29,7 +29,7 @@ struct Session {
 /// Processes of the session that still run, zombies not counted.
 [[nodiscard]] QList<pid_t> members_of(const Session& session);
 
-/// Which of the sessions still have a process. One look at the process table for all.
+/// Which of the sessions still have a process. Reads the process table once for all.
 [[nodiscard]] std::vector<bool> are_alive(const std::vector<Session>& sessions);
 
 /// Sends a signal to every one of them. Returns how many there were.

@@ -27,7 +27,7 @@ void ReportMaker::make(const QString& program, const QString& run_folder, const 
   process_.start(program, {"report", run_folder, "-o", file});
 }
 
-/// The solver ends ParaView, which draws the pictures for it, when it is asked to end.
+/// The solver ends ParaView, which draws the pictures for it, when it is requested to end.
 void ReportMaker::cancel() {
   if (!busy()) return;
   cancelled_ = true;

@@ -19,7 +19,7 @@ namespace breccia::gui {
 /// Whether a run was started from that case file here, or has a copy of that text.
 [[nodiscard]] bool is_run_with(const RunRecord& record, const QString& case_file, const QByteArray& text);
 
-/// False for a run whose case asks for frames without elements.
+/// False for a run whose frames have no elements.
 [[nodiscard]] bool writes_elements(const QString& run_folder);
 
 }  // namespace breccia::gui

@@ -25,8 +25,8 @@ namespace breccia::gui {
 
 namespace {
 
-/// The case among the inputs of a run: the first that is one. A geometry may stand before it, and that of another run
-/// from which it goes on behind it.
+/// The case among the inputs of a run: the first that is one. A geometry may precede it, and that of the parent run may
+/// follow.
 QJsonObject case_among(const QJsonObject& provenance) {
   for (const QJsonValue& input : provenance["inputs"].toArray()) {
     if (input.toObject()["file"].toString().endsWith(".toml")) return input.toObject();
@@ -156,7 +156,7 @@ std::vector<RunCheckpoint> read_checkpoints(const QString& run_folder) {
 bool is_held(const QString& run_folder) {
   struct stat about {};
   if (::stat(QFile::encodeName(QDir(run_folder).filePath("run.lock")).constData(), &about) != 0) return false;
-  // To take the lock for a look would be in the way of a run that wants it; the system's list is not.
+  // Taking the lock for a check would block a run that needs it; the system's list does not.
   QFile locks("/proc/locks");
   if (!locks.open(QIODevice::ReadOnly)) return false;
   const QByteArray inode = ":" + QByteArray::number(static_cast<qulonglong>(about.st_ino)) + " ";
@@ -195,7 +195,7 @@ std::vector<RunOrigin> runs_beside(const QString& case_file) {
     RunOrigin origin = origin_of(folder);
     if (own.match(name).hasMatch() || origin.case_name == file.fileName()) found.push_back(std::move(origin));
   }
-  // Of those that do not tell when, the names do.
+  // Without a start time, the names give it.
   const auto when = [](const RunOrigin& run) { return run.started.isValid() ? run.started.toMSecsSinceEpoch() : 0; };
   std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) { return when(a) > when(b); });
   return found;

@@ -16,7 +16,7 @@ namespace breccia::gui {
 
 /// One line of status.jsonl.
 struct RunStatus {
-  QString state;  ///< running, paused, complete, stopped, failed, interrupted; empty: nothing said yet
+  QString state;  ///< running, paused, complete, stopped, failed, interrupted; empty: none yet
   QString stage, message;
   double step = 0, steps_total = 0;
   double time = 0, end = 0;   ///< s
@@ -33,17 +33,17 @@ struct RunFrame {
   double time = 0;  ///< s
 };
 
-/// A state from which a run can go on.
+/// A state from which a run can be resumed.
 struct RunCheckpoint {
   QString file;  ///< absolute
   qint64 step = 0;
 };
 
-/// What a run that goes on says of itself, looked at now and then.
+/// Status of a run in progress, polled at intervals.
 class RunProgress {
  public:
   explicit RunProgress(const QString& run_folder);
-  /// The last that was said; as it was made while nothing is.
+  /// The last status; as constructed before the first one.
   const RunStatus& look();
 
  private:
@@ -91,17 +91,17 @@ class History {
 [[nodiscard]] bool was_run_with_another(const QString& run_folder, const QByteArray& case_text);
 /// True for a folder that a run has written into.
 [[nodiscard]] bool is_run_folder(const QString& folder);
-/// A run, as its provenance tells it.
+/// A run by its provenance.
 struct RunOrigin {
   QString folder;     ///< absolute
-  QDateTime started;  ///< not valid: it does not tell
+  QDateTime started;  ///< not valid: not stated
   int ranks = 1;
   QString case_name;  ///< file name of its case
   QString case_file;  ///< the same as it was named when the run was started
 };
 [[nodiscard]] RunOrigin origin_of(const QString& run_folder);
-/// The runs of a case in the folder "runs" beside it, newest first: those that say so, and those with such names as
-/// runs are given here.
+/// The runs of a case in the folder "runs" beside it, newest first: by their provenance, or by the names that the
+/// desktop gives to runs.
 [[nodiscard]] std::vector<RunOrigin> runs_beside(const QString& case_file);
 
 }  // namespace breccia::gui

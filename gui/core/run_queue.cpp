@@ -20,8 +20,8 @@
 namespace breccia::gui {
 namespace {
 
-constexpr unsigned long kLook = 500;  // ms between two looks of the worker
-constexpr int kPatience = 5000;       // ms for the lock of the file
+constexpr unsigned long kPollInterval = 500;  // ms between two passes of the worker
+constexpr int kPatience = 5000;               // ms for the lock of the file
 
 QJsonObject json_of(const QueuedRun& run) {
   QJsonObject json = json_of(run.record);
@@ -246,7 +246,7 @@ int work_queue(const QString& state_folder) {
   if (!lock.open(QIODevice::WriteOnly)) return 0;
   // Another worker is there. A file system without locks shows none: then two may work, each change under its own lock.
   if (::flock(lock.handle(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return 0;
-  while (queue.advance(registry)) QThread::msleep(kLook);
+  while (queue.advance(registry)) QThread::msleep(kPollInterval);
   return 0;
 }
 

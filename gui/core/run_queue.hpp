@@ -8,7 +8,7 @@
 /// runs, so that the windows may be closed meanwhile. A process that changes the file holds its lock for that moment.
 namespace breccia::gui {
 
-/// A run that is asked for.
+/// A requested run.
 struct RunWish {
   QString case_file, folder;  ///< of the results
   QByteArray text;            ///< of the case; what is edited later is not its matter
@@ -23,7 +23,7 @@ struct QueuedRun {
   QString snapshot;           ///< file that the command reads, taken away in the end; empty: the case itself
   QString state = "waiting";  ///< waiting, running, then as it ended: complete, stopped, failed, interrupted
   QString message;            ///< why it failed
-  bool stop_asked = false;    ///< by the user: one that ends before it has said anything has not failed
+  bool stop_asked = false;    ///< by the user: a run that then ends without a status has not failed
   [[nodiscard]] bool waits() const { return state == "waiting"; }
   [[nodiscard]] bool runs() const { return state == "running"; }
 };
@@ -49,16 +49,16 @@ class RunQueue {
   /// Moves one that waits past others that wait. @param by  < 0: earlier
   QString move(const QString& folder, int by) const;
   QString remove_ended() const;
-  /// Notes that the user has asked a run to stop; the asking itself is SolverRun's.
+  /// Records that the user has requested the stop of a run; SolverRun sends the request.
   QString note_stop(const QString& folder) const;
   QString set_cores(int cores) const;
   QString hold(bool on) const;
 
-  /// One look: notes what has ended and starts, in their order, the runs for which cores are free; the first one starts
-  /// alone where it wants more than all. A run that cannot be started or fails does not hold up the others.
+  /// One pass: records ended runs and starts, in their order, those for which cores are free; the first one starts
+  /// alone if it needs more than all. A run that cannot be started or fails does not delay the others.
   /// @param registry  gets those that were started
   /// @return whether anything runs, or will without a change from outside; false where the file cannot be written, and
-  ///         then nothing is started, since the next look would start it again
+  ///         then nothing is started, since the next pass would start it again
   bool advance(const RunRegistry& registry) const;
 
   /// A worker is at it.

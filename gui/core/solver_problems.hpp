@@ -29,7 +29,7 @@ class SolverProblems {
     std::string piece;  ///< of the case, that it is about
   };
   std::vector<Told> told_;
-  QByteArray text_;  ///< of the case when the last ones were told
+  QByteArray text_;  ///< of the case when the last ones were reported
 };
 
 }  // namespace breccia::gui

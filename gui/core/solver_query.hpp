@@ -24,7 +24,7 @@ class SolverQuery final : public QObject {
 
  signals:
   void answered(const QJsonObject& json);
-  /// @param problems  of the case; empty: the program could not do its work, `text` says why
+  /// @param problems  of the case; empty: the program failed, `text` is the reason
   void failed(const QString& text, const std::vector<breccia::Problem>& problems);
 
  private:

@@ -24,7 +24,7 @@ namespace breccia::gui {
 namespace {
 
 constexpr int kRunsRemembered = 200;
-constexpr int kLooksAfterEnd = 3;
+constexpr int kPollsAfterEnd = 3;
 
 /// The library that keeps what a process listens at on this machine; empty: it is not installed.
 QString loopback_library(const QStringList& command) {
@@ -41,12 +41,12 @@ QString loopback_library(const QStringList& command) {
 /// All ranks are of this machine: mpiexec, which would listen to networks for daemons of others, need not.
 QStringList environment_of_runs(const RunRecord& record) {
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-  if (::geteuid() == 0) {  // in a container; Open MPI asks root to say so
+  if (::geteuid() == 0) {  // in a container; Open MPI requires this of root
     environment.insert("OMPI_ALLOW_RUN_AS_ROOT", "1");
     environment.insert("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
   if (record.ranks <= 1) return environment.toStringList();
-  // As in solver/parallel/mpi_session.cpp: mpiexec, too, ends where it looks at an X display that closes.
+  // As in solver/parallel/mpi_session.cpp: mpiexec, too, ends if it queries an X display that closes.
   if (!environment.contains("HWLOC_COMPONENTS")) environment.insert("HWLOC_COMPONENTS", "-gl");
   const QString library = loopback_library(record.command), others = environment.value("LD_PRELOAD");
   if (!library.isEmpty()) environment.insert("LD_PRELOAD", others.isEmpty() ? library : library + ":" + others);
@@ -74,7 +74,7 @@ QString state_after(const RunStatus& status) {
 
 QString log_of(const QString& folder) { return folder + ".log"; }
 
-/// What it said in the end, else the end of its log.
+/// Its last message, else the end of its log.
 QString last_words(const RunStatus& status, const QString& folder) {
   if (status.over() && !status.message.isEmpty()) return status.message;
   QFile file(log_of(folder));
@@ -164,7 +164,7 @@ SolverRun* SolverRun::go_on(const Launch& launch, const RunRecord& ended, int ra
   SolverRun* run = launch_watched(std::move(record), QFileInfo(ended.folder).absolutePath(), error, parent);
   if (run == nullptr) return nullptr;
   run->read_history();
-  run->status_ = {};  // what stands there was said by the run that has ended
+  run->status_ = {};  // the status there is that of the run that has ended
   return run;
 }
 
@@ -174,7 +174,7 @@ QString SolverRun::state() const {
     if (!awaited_.isEmpty() && !status_.over()) return awaited_ == "paused" ? "pausing" : "resuming";
     return status_.state.isEmpty() ? QString("starting") : status_.over() ? QString("finishing") : status_.state;
   }
-  // One that was stopped before it said anything has not failed.
+  // A run that was stopped before its first status has not failed.
   if (stopping_.isValid() && status_.state.isEmpty()) return "stopped";
   return state_after(status_);
 }
@@ -238,10 +238,10 @@ void SolverRun::look() {
   look_at_frames();
   // The last line of a run that was killed is written by a process that outlives it for a moment.
   if (alive_) {
-    looks_after_end_ = 0;
+    polls_after_end_ = 0;
     told_end_ = false;
   }
-  if (alive_ || ++looks_after_end_ <= kLooksAfterEnd || history_file_.has_more()) return;
+  if (alive_ || ++polls_after_end_ <= kPollsAfterEnd || history_file_.has_more()) return;
   timer_.stop();
   if (told_end_) return;
   told_end_ = true;
@@ -259,8 +259,8 @@ void SolverRun::ask_for(const QByteArray& command, const QString& state) {
   emit status_changed();
 }
 
-/// The run takes the file away when it has read it. What another program has asked meanwhile is not written over: a
-/// link never replaces a file.
+/// The run takes the file away when it has read it. Requests of other programs are not overwritten: a link never
+/// replaces a file.
 void SolverRun::send_requests() {
   if (requests_.isEmpty()) return;
   const QDir folder(record_.folder);
@@ -279,12 +279,12 @@ void SolverRun::send_requests() {
 void SolverRun::stop() {
   if (!alive_ || stopping_.isValid()) return;
   stopping_.start();
-  // Before it has said anything it does not read requests yet.
+  // Before its first status it does not read requests.
   if (status_.state.isEmpty()) {
     signal_session(record_.session, SIGTERM);
     terminated_ = true;
   } else {
-    requests_.clear();  // what was asked before has no sense any more
+    requests_.clear();  // earlier requests are obsolete
     ask("stop");
   }
   emit status_changed();

@@ -31,14 +31,14 @@ struct RunRecord {
 
 /// How a run has ended, from its folder.
 struct RunOutcome {
-  RunStatus told;   ///< the last it has said
+  RunStatus told;   ///< its last status
   QString state;    ///< complete, stopped, failed, interrupted
   QString message;  ///< why it failed
 };
 [[nodiscard]] RunOutcome outcome_of(const QString& folder);
 
-/// One run: a process of its own that does not need us, watched through its folder. It is looked at every
-/// `kInterval` while this object exists; the run goes on without.
+/// One run: an independent process, monitored through its folder every `kInterval` while this object exists; the run
+/// continues without it.
 class SolverRun final : public QObject {
   Q_OBJECT
  public:
@@ -49,13 +49,13 @@ class SolverRun final : public QObject {
   };
 
   /// Finds a run again, or only its results when it has ended.
-  /// @param is_new  it has just been started: its end is told even if it has ended already
+  /// @param is_new  it has just been started: its end is signalled even if it has ended already
   explicit SolverRun(RunRecord record, QObject* parent = nullptr, bool is_new = false);
 
   /// The command line of a run, as it is shown and started.
   [[nodiscard]] static QStringList command_line(const Launch& launch, const QString& case_file, const QString& folder,
                                                 int ranks);
-  /// That of a run that goes on from its last checkpoint.
+  /// That of a run that is resumed from its last checkpoint.
   [[nodiscard]] static QStringList resume_line(const Launch& launch, const QString& folder, int ranks);
   /// Runs the command of a record as a session of its own, which is noted there. False: it could not be started.
   /// @param folder  in which it works
@@ -63,8 +63,8 @@ class SolverRun final : public QObject {
   /// Starts one. nullptr: it could not be started, see `error`.
   [[nodiscard]] static SolverRun* start(const Launch& launch, const QString& case_file, const QString& folder,
                                         int ranks, QString* error, QObject* parent);
-  /// Goes on with one that has ended before its time, from its last checkpoint, on any number of ranks. The object that
-  /// watched it until now has no more to do.
+  /// Resumes a run that ended before its time, from its last checkpoint, on any number of ranks. The object that
+  /// monitored it so far is no longer used.
   [[nodiscard]] static SolverRun* go_on(const Launch& launch, const RunRecord& ended, int ranks, QString* error,
                                         QObject* parent);
 
@@ -88,11 +88,11 @@ class SolverRun final : public QObject {
   void pause() { ask_for("pause", "paused"); }
   void resume() { ask_for("resume", "running"); }
   void checkpoint() { ask("checkpoint"); }
-  /// Asks the run to end after the present step; then SIGTERM; then SIGKILL to every process of its session. A run that
-  /// was started elsewhere, in a terminal, is only asked: its session has other processes.
+  /// Requests the end of the run after the present step; then SIGTERM; then SIGKILL to every process of its session. A
+  /// run that was started elsewhere, in a terminal, gets the request only: its session has other processes.
   void stop();
   void set_patience(Patience patience) { patience_ = patience; }
-  /// Looks at the folder and the process table now.
+  /// Reads the folder and the process table now.
   void look();
 
  signals:
@@ -104,7 +104,7 @@ class SolverRun final : public QObject {
 
  private:
   void ask(const QByteArray& command);
-  /// @param state  that the run says it is in when it has done so
+  /// @param state  reported state of the run after the command
   void ask_for(const QByteArray& command, const QString& state);
   void send_requests();
   void go_on_stopping();
@@ -120,11 +120,11 @@ class SolverRun final : public QObject {
   run_folder::GrowingLines status_file_, history_file_;
   QByteArray series_mark_;  ///< time and size of the index of frames
   QList<QByteArray> requests_;
-  QString awaited_;  ///< state that was asked for and that the run has not told yet; empty: none
+  QString awaited_;  ///< requested state that the run has not reported yet; empty: none
   QTimer timer_;
   QElapsedTimer stopping_;
   Patience patience_;
-  int looks_after_end_ = 0;
+  int polls_after_end_ = 0;
   bool alive_ = true, terminated_ = false, told_end_ = false, wants_history_ = false;
 };
 

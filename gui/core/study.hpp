@@ -57,7 +57,7 @@ struct StudyResult {
   [[nodiscard]] std::optional<double> value(const QString& column) const;
 };
 
-/// @param queue  tells which of them wait or run
+/// @param queue  for those that wait or run
 [[nodiscard]] std::vector<StudyResult> study_results(const Study& study, const QueueContents& queue);
 
 /// A column over the first parameter, a line for each value of the second one.

@@ -5,8 +5,8 @@
 
 namespace breccia::gui {
 
-/// Lines that one text has and the other has not, in their order: "- gone", "+ new".
-/// O(lines of what differs squared); a difference of more than a few thousand lines is told as all of them.
+/// Lines that only one of two texts has, in their order: "- removed", "+ new".
+/// O(lines of what differs squared); a difference of more than a few thousand lines lists all of them.
 [[nodiscard]] QStringList line_differences(const QString& before, const QString& after);
 
 }  // namespace breccia::gui

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-/// Where the values of a case stand in its text. Nothing is interpreted beyond that, so a text with mistakes has places
-/// as well; what the reader of the solver says of it is another matter.
+/// Places of the values of a case in its text. Nothing is interpreted beyond that, so a text with mistakes has places
+/// as well; the solver's reader finds the mistakes.
 namespace breccia::gui {
 
 struct Span {

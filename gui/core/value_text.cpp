@@ -92,7 +92,7 @@ QString shown_value(const Key& key, const QString& toml) {
     }
     return items.join(", ");
   }
-  // A comma would part it in two when it is taken over.
+  // A comma would split it in two when it is committed.
   if (key.type == ValueType::text_or_list && toml.contains(',')) return toml;
   // People count angles in degrees, the text in radians where it names no unit.
   return is_angle(key) && is_number(toml) && !is_zero(toml) ? toml + " rad" : unquoted(toml);

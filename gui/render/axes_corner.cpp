@@ -23,7 +23,7 @@ AxesCorner::AxesCorner() {
   axes_->SetConeRadius(0.35);
   axes_->SetShaftTypeToCylinder();
   axes_->SetAxisLabels(1);
-  // Told apart by their letters; the colours are those of people who see no red or no green as well.
+  // Distinguished by their letters; the colours also with red-green colour blindness.
   constexpr std::array<Vector, 3> kColours{{{0.84, 0.37, 0.0}, {0.0, 0.62, 0.45}, {0.0, 0.45, 0.70}}};
   const std::array<std::array<vtkProperty*, 2>, 3> parts{
       {{axes_->GetXAxisShaftProperty(), axes_->GetXAxisTipProperty()},

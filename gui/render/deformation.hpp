@@ -49,7 +49,7 @@ struct Deformation {
 /// X + scale (x - X) of every corner, X at rest; where that is not known the corner stays. O(elements)
 [[nodiscard]] vtkSmartPointer<vtkPoints> enlarged_elements(vtkUnstructuredGrid& elements, const RestPlaces& rest,
                                                            double scale);
-/// The same of joints, which lie on the faces that their ids tell.
+/// The same of joints, which lie on the faces given by their ids.
 [[nodiscard]] vtkSmartPointer<vtkPoints> enlarged_joints(vtkUnstructuredGrid& joints, const RestPlaces& rest,
                                                          double scale);
 

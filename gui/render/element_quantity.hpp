@@ -5,8 +5,7 @@
 #include <array>
 #include <string>
 
-/// The numbers that a frame tells of every element, as they are coloured by and counted. VTK only; may be called from
-/// any thread.
+/// The numbers of every element in a frame, for colours and histograms. VTK only; may be called from any thread.
 namespace breccia::gui {
 
 enum class Quantity {

@@ -41,7 +41,7 @@ struct Histogram {
 
 struct ElementValues {
   Measure measure = Measure::radius_ratio;
-  std::vector<double> values;  ///< by row of the elements or joints; empty: the frame does not tell
+  std::vector<double> values;  ///< by row of the elements or joints; empty: not in the frame
   Histogram bars;
   std::thread::id counted_by;
 };

@@ -23,7 +23,7 @@
 namespace breccia::gui {
 namespace {
 
-/// Distance over an edge of a face from where on one looks into a crack.
+/// Distance over an edge of a face from which a crack is drawn open.
 constexpr double kApart = 0.01;
 
 using Point = std::array<double, 3>;
@@ -44,7 +44,7 @@ std::size_t hashed(std::uint64_t key, std::size_t mask) {
 }
 
 /// Numbers keys in the order in which they come; a key that has come before has its number. The table grows with the
-/// number of different keys, of which there are few: what is asked for is in the cache.
+/// number of different keys, of which there are few: lookups hit the cache.
 class Numbers {
  public:
   std::int64_t of(std::uint64_t key) {

@@ -65,7 +65,7 @@ struct FrameData {
   vtkSmartPointer<vtkPolyData> damaged;           ///< triangles of the joints that carry damage
   bool is_broken = false;                         ///< there are more fragments than bodies
   std::shared_ptr<const Skin> faces;              ///< of this model, for the next frame
-  vtkSmartPointer<vtkUnstructuredGrid> elements;  ///< all of them; only read once the frame is told
+  vtkSmartPointer<vtkUnstructuredGrid> elements;  ///< all of them; only read once the frame is delivered
   vtkSmartPointer<vtkUnstructuredGrid> drawn;     ///< the same, where they are drawn: displacements may be enlarged
   vtkSmartPointer<vtkUnstructuredGrid> joints;    ///< all that carry damage, as and where the drawn; nullptr: none
   Deformation deformation;                        ///< as it is drawn; what was found for it holds for the next frame

@@ -31,7 +31,7 @@ constexpr std::array<Colour, 8> kColours{{{0, 114, 178},
                                           {86, 180, 233},
                                           {140, 140, 140},
                                           {200, 30, 30}}};
-/// So that curves are told apart without colour.
+/// Distinguishes curves without colour.
 constexpr std::array kPens{vtkPen::SOLID_LINE, vtkPen::DASH_LINE, vtkPen::DASH_DOT_LINE, vtkPen::DOT_LINE};
 /// Of the runs that are compared with.
 constexpr std::array kMarks{vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND, vtkPlotPoints::CROSS,

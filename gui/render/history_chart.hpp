@@ -16,7 +16,7 @@ struct Curve {
   std::string name;
   std::vector<double> values;
   int look = 0;                   ///< of its quantity: colour and dash, the same in every picture
-  int other = 0;                  ///< number of the run that it is of, told by marks; 0: the run in view
+  int other = 0;                  ///< number of its run, shown by marks; 0: the run in view
   std::string run = {};           ///< its name, which stands in the legend once; empty: the run in view
   std::vector<double> time = {};  ///< s, its own; empty: that of the others
 };

@@ -122,7 +122,7 @@ std::vector<Seat> inner_seats_of(vtkUnstructuredGrid& elements, const SurfaceGro
   return seats;
 }
 
-/// Some of them, each as far as can be from those taken before. Of very many every so-manieth is looked at.
+/// Some of them, each as far as possible from those chosen before. Of very many only every n-th is considered.
 /// @param apart  no two are nearer to each other: arrows that overlap are a chain of heads
 std::vector<Seat> spread(std::vector<Seat> seats, double apart) {
   constexpr std::size_t kEnough = 4000;

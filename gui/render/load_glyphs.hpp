@@ -13,12 +13,12 @@
 /// Loads and constraints as they are seen on a model at rest. VTK only.
 namespace breccia::gui {
 
-/// What a load looks like: shapes, not colours, tell them apart.
+/// Glyph of a load: distinguished by shape, not by colour.
 enum class LoadShape {
   arrow,         ///< with one head: prescribed motion, gravity
   double_arrow,  ///< with two heads: initial velocity
   pressure,      ///< arrows along the normals of the faces, onto them where it is positive
-  support,       ///< cones that stand on the faces, one for each axis that is held
+  support,       ///< cones that stand on the faces, one for each constrained axis
   random,        ///< arrows with two heads that point anywhere: random velocities
   stretch,   ///< arrows with a foot, each as long as the velocity at its face: stretching about the centre of a body
   spin,      ///< an arc about an axis through the centre of each body

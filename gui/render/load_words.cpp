@@ -13,7 +13,7 @@ void LoadWords::clear() {
 }
 
 void LoadWords::add(const std::string& words, std::vector<Vector> places) {
-  // Loads of one group have the same places: the words of each begin to look at another one.
+  // Loads of one group have the same places: the labels of each begin at another one.
   const std::size_t first = labels_.size() % places.size();
   Label& label = labels_.emplace_back(Label{vtkSmartPointer<vtkTextActor>::New(), std::move(places), first});
   label.actor->SetInput(words.c_str());

@@ -36,7 +36,7 @@ inline PrefixedUnit prefixed_unit(double largest, const std::string& unit) {
   if (!(size > 0) || std::find(kTakePrefixes.begin(), kTakePrefixes.end(), unit) == kTakePrefixes.end())
     return {1, with_powers(unit)};
   for (const auto& [factor, prefix] : kPrefixes) {
-    const bool is_used = factor <= 1 || unit != "s";  // nobody counts in kiloseconds
+    const bool is_used = factor <= 1 || unit != "s";  // kiloseconds are unusual
     if (is_used && size >= kRounding * factor) return {factor, prefix + unit};
   }
   return {kPrefixes.back().first, kPrefixes.back().second + unit};

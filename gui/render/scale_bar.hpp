@@ -12,8 +12,8 @@
 
 namespace breccia::gui {
 
-/// A bar of a round length with its unit, at the lower edge of the view. The view is in perspective: the length holds
-/// at the depth that the camera looks at, the middle of the model.
+/// A bar of a round length with its unit, at the lower edge of the view. The view is in perspective: the length is that
+/// at the focal depth of the camera, the middle of the model.
 class ScaleBar : public vtkActor2D {
  public:
   static ScaleBar* New();

@@ -14,7 +14,7 @@
 namespace breccia::gui {
 namespace {
 
-/// Faces that are still told apart by their edges, and quickly drawn with them.
+/// Largest number of faces whose edges are still distinguishable and quickly drawn.
 constexpr vtkIdType kMostWithEdges = 50000;
 
 }  // namespace
@@ -174,7 +174,7 @@ void Scene::highlight(const std::vector<std::string>& groups) {
   if (has_data()) colour();
 }
 
-/// Number of a face as in SurfaceGroups; -1: the frame does not tell.
+/// Number of a face as in SurfaceGroups; -1: not in the frame.
 std::int64_t Scene::face_of(vtkIdType cell) const {
   vtkDataArray* id = frame_.skin->GetCellData()->GetArray("id");
   vtkDataArray* side = frame_.skin->GetCellData()->GetArray("side");

@@ -56,14 +56,13 @@ struct ColourRange {
 /// What the colour of the joints means; hidden: they are not drawn.
 enum class JointColouring { mode, time_of_failure, hidden };
 
-/// From where the model is looked at: a corner above it, or along an axis.
+/// View direction: from a corner above the model, or along an axis.
 enum class LookFrom { corner, plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
 
 /// The colourings with their names for people, units among them.
 [[nodiscard]] const std::vector<std::pair<Colouring, std::string>>& colourings();
 
-/// The 3D picture: skin of the bodies, cracks by mode, legend, title. Colours are told apart by a legend in words as
-/// well.
+/// The 3D picture: skin of the bodies, cracks by mode, legend, title. A legend also names the colours in words.
 class Scene {
  public:
   Scene();
@@ -114,7 +113,7 @@ class Scene {
   [[nodiscard]] vtkCellData* cut_values() const;
   /// From where to where the model reaches along a direction, m; { 0, 0 }: nothing is there.
   [[nodiscard]] std::array<double, 2> extent(const Vector& normal) const;
-  /// Draws these faces and looks through the others at them; nullptr: none.
+  /// Draws these faces and makes the others transparent; nullptr: none.
   void mark(vtkPolyData* faces);
   [[nodiscard]] vtkIdType num_marked() const;
   /// Loads and constraints as glyphs with their words, at the places of their groups.
@@ -127,13 +126,13 @@ class Scene {
   void set_dark(bool dark);
   void set_caption(const std::string& text);
   [[nodiscard]] std::string caption() const { return caption_->GetInput() == nullptr ? "" : caption_->GetInput(); }
-  /// The direction that is drawn upwards, of length one along an axis, from the next look on.
+  /// The direction that is drawn upwards, of length one along an axis, from the next look_from() on.
   void set_up(const std::array<double, 3>& up) { up_ = up; }
   [[nodiscard]] const std::array<double, 3>& up() const { return up_; }
-  /// Looks at everything from there.
+  /// Shows the whole model from there.
   void look_from(LookFrom where);
   void reset_camera() { look_from(LookFrom::corner); }
-  /// The direction that is looked along.
+  /// The view direction.
   [[nodiscard]] Vector look() const;
   /// The axes in the corner and the scale bar.
   void show_axes(bool on);

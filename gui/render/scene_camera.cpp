@@ -8,7 +8,7 @@
 #include "render/scene.hpp"
 #include "render/vectors.hpp"
 
-// How the model is looked at.
+// View of the model.
 
 namespace breccia::gui {
 namespace {

@@ -14,14 +14,14 @@
 #include "render/scene.hpp"
 #include "render/value_range.hpp"
 
-// What the colours of the skin tell.
+// Meaning of the colours of the skin.
 
 namespace breccia::gui {
 namespace {
 
 using Colour = std::array<double, 3>;
 
-/// Told apart by people who see no red or no green as well (after Okabe and Ito).
+/// Distinguishable with red-green colour blindness (after Okabe and Ito).
 constexpr std::array<Colour, 8> kClasses{{{0.34, 0.71, 0.91},
                                           {0.90, 0.62, 0.0},
                                           {0.0, 0.62, 0.45},
@@ -151,7 +151,7 @@ void Scene::colour_by_quantity(Quantity quantity) {
   is_length(quantity) ? colour_by_length(source) : colour_by_value(source, title_of(quantity));
 }
 
-/// They are small in some runs and large in others. A range that is held or given keeps its unit.
+/// They are small in some runs and large in others. A fixed or given range keeps its unit.
 void Scene::colour_by_length(const QuantitySource& source) {
   double most = 0;
   for (vtkDataArray* values : {frame_.skin->GetCellData()->GetArray(source.array), values_within(source.array)})

@@ -6,7 +6,7 @@
 namespace breccia::gui {
 namespace {
 
-/// Share of their size by which values differ that look alike.
+/// Relative difference below which values count as equal.
 constexpr double kAlike = 1e-3;
 
 double size_of(const std::array<double, 2>& range) { return std::max(std::abs(range[0]), std::abs(range[1])); }

@@ -1,4 +1,4 @@
-"""What the desktop runs in ParaView (paraview --script=FILE): the frames of a run, ready to be looked at.
+"""Script of the desktop for ParaView (paraview --script=FILE): shows the frames of a run.
 
 Bodies are coloured by stress, joints by the time at which they failed, both at the last frame; the play button of ParaView goes through all.
 $BRECCIA_RESULTS is the folder of the run, $BRECCIA_RESULTS_UP the axis that is drawn upwards: x, y or z, with a minus where it is downwards.

@@ -46,7 +46,7 @@ void AnimationExport::begin() {
 void AnimationExport::take(double time, const QImage& picture) {
   if (next_ >= static_cast<int>(frames_.size())) return;
   const RunFrame& wanted = frames_[static_cast<std::size_t>(next_)];
-  if (wanted.time != time) {  // another one was asked for meanwhile, in whose place this one was forgotten
+  if (wanted.time != time) {  // another one was requested meanwhile, which replaced this one
     emit frame_wanted(wanted.file, wanted.time);
     return;
   }

@@ -12,8 +12,8 @@
 
 namespace breccia::gui {
 
-/// Makes a film of pictures that are shown one after the other: asks for each frame, takes its picture, and lets ffmpeg
-/// put them together in a process of its own; or keeps the pictures, numbered, which needs no ffmpeg.
+/// Makes an animation of the frames: requests each frame, stores its picture, and runs ffmpeg in a separate process; or
+/// keeps the numbered pictures, which needs no ffmpeg.
 class AnimationExport final : public QObject {
   Q_OBJECT
  public:
@@ -24,10 +24,10 @@ class AnimationExport final : public QObject {
   [[nodiscard]] static QString program();
 
   void begin();
-  /// A frame has been drawn; it is taken if it is the one that was asked for, else that is asked for again.
+  /// A frame has been drawn; it is stored if it is the requested one, else that is requested again.
   /// @param time  of the frame, s
   void take(double time, const QImage& picture);
-  /// No picture of the frame that was asked for will come.
+  /// The requested frame cannot be drawn.
   void give_up(const QString& why) { emit done(why); }
   [[nodiscard]] int next() const { return next_; }
 

@@ -107,7 +107,7 @@ void CaseText::show_text() {
   const std::string before = toPlainText().toStdString();
   const std::string after = QString::fromUtf8(bytes).replace("\r\n", "\n").toStdString();
   if (before != after) {
-    // Only what differs is replaced, so that the place one looks at stays. Positions are those of QString.
+    // Only what differs is replaced, so that the visible place is kept. Positions are those of QString.
     const QString old_text = QString::fromStdString(before), new_text = QString::fromStdString(after);
     int front = 0, back = 0;
     const auto most = static_cast<int>(std::min(old_text.size(), new_text.size()));

@@ -25,7 +25,7 @@ CaseTree::CaseTree(Document& document, QWidget* parent)
   column->setContentsMargins(4, 4, 4, 4);
   tree_->setObjectName("stages");
   tree_->setAccessibleName(tr("Stages of the work"));
-  tree_->setToolTip(tr("Stages of the work and the parts of the case; a mark counts what is wrong there"));
+  tree_->setToolTip(tr("Steps of the work and the parts of the case; a mark counts the problems there"));
   tree_->setHeaderHidden(true);
   tree_->setColumnCount(1);
   column->addWidget(tree_);

@@ -62,7 +62,7 @@ std::vector<Load> glyphs_of(const Condition& row) {
     load.words = (row.type + " " + quantity_words(row.largest[0], row.unit)).toStdString();
   } else if (row.number < 0) {
     load.shape = LoadShape::double_arrow;
-  } else if (!row.target.isEmpty() && !(size(row.largest) > 0)) {  // held, or moved by nothing
+  } else if (!row.target.isEmpty() && !(size(row.largest) > 0)) {  // fixed, or without motion
     load.shape = LoadShape::support;
     load.axes = row.axes;
     load.words = (row.type + " " + row.value).toStdString();

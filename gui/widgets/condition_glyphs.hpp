@@ -8,7 +8,7 @@
 
 namespace breccia::gui {
 
-/// What a condition looks like, with words beside it: each part of an initial velocity by itself.
+/// Glyphs of a condition with their labels: each part of an initial velocity separately.
 [[nodiscard]] std::vector<Load> glyphs_of(const Condition& row);
 
 /// The direction that a case has upwards: against its gravity; without any, against what flies along -z; else y, as

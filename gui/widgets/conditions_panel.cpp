@@ -25,7 +25,7 @@ ConditionsPanel::ConditionsPanel(QWidget* parent) : QWidget(parent), table_(new 
   table_->horizontalHeader()->setStretchLastSection(true);
   chart_->setObjectName("load_chart");
   chart_->setAccessibleName(tr("Functions of time"));
-  chart_->setToolTip(tr("The value of the condition in hand over its stage, as the solver reads it"));
+  chart_->setToolTip(tr("The value of the selected condition over its stage, as evaluated by the solver"));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(2, 2, 2, 2);
   row->addWidget(table_, 1);

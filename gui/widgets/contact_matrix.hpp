@@ -7,8 +7,8 @@
 
 namespace breccia::gui {
 
-/// Which [[contact]] holds for which pair of bodies: rows and columns are groups, a cell leads to its entry. Values
-/// that a pair has from an entry for others are in italics and say so.
+/// The [[contact]] of each pair of bodies: rows and columns are groups, a cell opens its entry. Values from an entry
+/// for other groups are in italics, with a note.
 class ContactMatrix final : public QWidget {
   Q_OBJECT
  public:

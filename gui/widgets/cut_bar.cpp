@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kTicks = 500;  // of the slider
 
-/// A place with few digits, closer to the given one than the slider tells apart.
+/// A place with few digits, closer to the given one than the resolution of the slider.
 double short_place(double place, const std::array<double, 2>& extent) {
   if (!(extent[1] > extent[0])) return place;
   const double step = std::pow(10, std::floor(std::log10((extent[1] - extent[0]) / kTicks)));
@@ -71,8 +71,8 @@ void CutBar::make_fields() {
   way_->setObjectName("cut_way");
   way_->setAccessibleName(tr("Cut across"));
   way_->setToolTip(
-      tr("Cut the model open by a plane across an axis, or across the direction that is looked along now (chosen "
-         "again: anew); the elements that it goes through are seen in it (Ctrl+8)"));
+      tr("Cut the model by a plane across an axis, or across the present view direction (choose again to update it); "
+         "the plane shows the elements that it cuts (Ctrl+8)"));
   slider_->setObjectName("cut_slider");
   slider_->setAccessibleName(tr("Place of the cut"));
   slider_->setToolTip(tr("Moves the cut through the model (arrow keys)"));
@@ -84,7 +84,7 @@ void CutBar::make_fields() {
   place_->setMaximumWidth(110);
   other_->setObjectName("cut_other");
   other_->setAccessibleName(tr("Show the other side of the cut"));
-  other_->setToolTip(tr("Hide what lies before the cut instead of what lies beyond it"));
+  other_->setToolTip(tr("Hide the front side of the cut instead of the back side"));
 }
 
 void CutBar::set_model(std::function<std::array<double, 2>(const Vector&)> extent, std::function<Vector()> look) {

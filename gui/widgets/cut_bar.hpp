@@ -24,9 +24,9 @@ class CutBar final : public QWidget {
   [[nodiscard]] const std::optional<CutPlane>& plane() const { return plane_; }
   /// Switches it on, as it was last, and off.
   [[nodiscard]] QAction* action() { return action_; }
-  /// Where the model lies, which moves: the slider goes from one end of it to the other.
-  /// @param extent  from where to where it reaches along a direction, m
-  /// @param look    the direction that the view looks along
+  /// Extent of the moving model, which is the range of the slider.
+  /// @param extent  its lowest and highest coordinate along a direction, m
+  /// @param look    the view direction
   void set_model(std::function<std::array<double, 2>(const Vector&)> extent, std::function<Vector()> look);
   /// The model has moved. @param is_new  it is another one, which is cut through its middle if the plane misses it
   void follow_model(bool is_new);

@@ -22,7 +22,7 @@ DomainsPanel::DomainsPanel(QWidget* parent)
   ranks_->setToolTip(tr("How many ranks the model is divided among"));
   divide_->setObjectName("divide");
   divide_->setAccessibleName(tr("Divide"));
-  divide_->setToolTip(tr("Ask the solver how so many ranks would share the model"));
+  divide_->setToolTip(tr("Show how so many ranks would divide the model"));
   table_->setObjectName("domain_table");
   table_->setAccessibleName(tr("Loads of the ranks"));
   table_->setToolTip(tr("Elements, joints, proxies, neighbours, cut faces and predicted time of each rank"));

@@ -10,7 +10,7 @@
 
 namespace breccia::gui {
 
-/// How N ranks would share the model: a table by rank, as `breccia check --ranks N` tells.
+/// Division of the model over N ranks: a table by rank, as of `breccia check --ranks N`.
 class DomainsPanel final : public QWidget {
   Q_OBJECT
  public:

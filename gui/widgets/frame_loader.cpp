@@ -11,7 +11,7 @@ FrameLoader::FrameLoader(QObject* parent) : QObject(parent) {
     if (loading_model_ == model_) {
       faces_ = frame.faces;
       keep(frame.deformation);
-      telling_ = true;  // what is asked for meanwhile comes last, and is read
+      telling_ = true;  // requests made meanwhile come last, and are read
       emit loaded(frame);
       telling_ = false;
     }
@@ -40,7 +40,7 @@ void FrameLoader::set_deformation(double scale, const QString& rest_file) {
   deformation_.rest_file = rest_file.toStdString();
 }
 
-/// Of a frame that has been read; another scale may have been asked for meanwhile.
+/// Of a frame that has been read; another scale may have been requested meanwhile.
 void FrameLoader::keep(const Deformation& found) {
   if (found.rest != nullptr) deformation_.rest = found.rest;
   deformation_.lacks_rest = deformation_.lacks_rest || found.lacks_rest;
@@ -51,7 +51,7 @@ void FrameLoader::load(const QString& elements_file, double time) {
   if (watcher_.isRunning() || telling_) {
     next_ = Wanted{elements_file, time};
   } else {
-    next_.reset();  // what is read may have ended without having been told yet
+    next_.reset();  // the current read may have ended without its result being delivered
     begin({elements_file, time});
   }
 }

@@ -9,7 +9,7 @@
 
 namespace breccia::gui {
 
-/// Reads frames on another thread. While one is read only the last of those asked for meanwhile is remembered.
+/// Reads frames on another thread. While one is read only the last of further requests is kept.
 class FrameLoader final : public QObject {
   Q_OBJECT
  public:
@@ -17,7 +17,7 @@ class FrameLoader final : public QObject {
   ~FrameLoader() override;
   /// Forgets the faces of the model: another run or mesh follows.
   void start_model();
-  /// How frames are drawn that are asked for from now on, until another model is started.
+  /// How frames requested from now on are drawn, until another model is started.
   /// @param scale      as of Deformation;  @param rest_file  the frame that displacements are counted from
   void set_deformation(double scale, const QString& rest_file);
   /// An automatic scale is found anew.
@@ -38,7 +38,7 @@ class FrameLoader final : public QObject {
   QFutureWatcher<FrameData> watcher_;
   std::shared_ptr<const Skin> faces_;
   std::optional<Wanted> next_;
-  double scale_ = 1;          ///< that was asked for
+  double scale_ = 1;          ///< requested
   bool finds_scale_ = false;  ///< of the frame that is read
   Deformation deformation_;   ///< with what was found for it
   int model_ = 0, loading_model_ = 0;

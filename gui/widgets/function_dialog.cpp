@@ -87,7 +87,7 @@ void FunctionDialog::make_head(QFormLayout& head) {
   component_->addItems(edit_.components());
   kind_->setObjectName("function_kind");
   kind_->setAccessibleName(tr("Kind of function"));
-  kind_->setToolTip(tr("What the value does over time; the value that it has is kept"));
+  kind_->setToolTip(tr("Shape of the value over time; the present value is kept"));
   auto* axis = new QLabel(tr("A&xis"));
   axis->setBuddy(component_);
   if (component_->count() > 1) {

@@ -99,10 +99,10 @@ HistogramPanel::HistogramPanel(QWidget* parent)
   for (const auto& [measure, name] : measures())
     measure_->addItem(QString::fromStdString(name), static_cast<int>(measure));
   measure_->setObjectName("histogram_measure");
-  measure_->setAccessibleName(tr("What the histogram is of"));
+  measure_->setAccessibleName(tr("Quantity of the histogram"));
   measure_->setToolTip(tr(
-      "What the bars count; flat elements (radius ratio near 0) make the step short; a result is taken over from what "
-      "the view is coloured by"));
+      "Quantity of the bars; flat elements (radius ratio near 0) make the step short; a result is the field by which "
+      "the view is coloured"));
   view_->setObjectName("histogram_bars");
   view_->setAccessibleName(tr("Histogram"));
   view_->setToolTip(

@@ -48,7 +48,7 @@ class HistogramPanel final : public QWidget {
   void set_frame(const FrameData& frame, bool follows);
   /// The histogram is of what the view is coloured by.
   void follow(Colouring colouring);
-  /// As told last; nullptr: nothing yet.
+  /// The last values; nullptr: none yet.
   [[nodiscard]] const ElementValues* values() const { return counted_ == nullptr ? nullptr : &counted_->values; }
   [[nodiscard]] bool busy() const { return measuring_.busy() || collecting_.busy(); }
 
@@ -57,7 +57,7 @@ class HistogramPanel final : public QWidget {
   void elements_chosen(vtkSmartPointer<vtkPolyData> faces, const QString& words);
 
  private:
-  /// A frame and its numbers: those that are asked for next may be of another frame.
+  /// A frame and its numbers: those requested next may be of another frame.
   struct Counts {
     FrameData frame;
     ElementValues values;

@@ -24,9 +24,8 @@ JointPlot::JointPlot(QWidget* parent) : QWidget(parent) {
   setObjectName("joint_plot");
   setAccessibleName(tr("Curves of the joint law"));
   setToolTip(tr(
-      "Traction over opening [um] (solid) and over slip [um] (dashed), as the solver evaluates the law; the areas are "
-      "the energies of fracture, the dotted line is the way back from half of the opening. At the right: the strength "
-      "under "
+      "Traction over opening [um] (solid) and over slip [um] (dashed), as evaluated by the solver; the areas are the "
+      "fracture energies, the dotted line is unloading from half of the opening. At the right: the strength under "
       "normal and shear traction [MPa]"));
 }
 

@@ -12,7 +12,7 @@ class JointPlot final : public QWidget {
   Q_OBJECT
  public:
   explicit JointPlot(QWidget* parent = nullptr);
-  /// @param law  one of the answer's `laws`; empty: nothing is drawn, and `words` say why
+  /// @param law  one of the answer's `laws`; empty: nothing is drawn, and `words` give the reason
   void show_law(const QJsonObject& law, const QString& words);
   [[nodiscard]] QSize sizeHint() const override { return {700, 200}; }
   [[nodiscard]] QSize minimumSizeHint() const override { return {400, 140}; }

@@ -63,7 +63,7 @@ void show_keys(QMainWindow& window) {
   auto* table = new QTableWidget(static_cast<int>(rows.size()), 2);
   table->setObjectName("keys_table");
   table->setAccessibleName(text("Keys"));
-  table->setToolTip(text("What the window does by keys and by the mouse"));
+  table->setToolTip(text("Functions of keys and mouse"));
   table->setHorizontalHeaderLabels({text("key"), text("does")});
   table->verticalHeader()->hide();
   table->horizontalHeader()->setStretchLastSection(true);

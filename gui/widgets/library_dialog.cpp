@@ -35,7 +35,7 @@ LibraryDialog::LibraryDialog(const UserLibrary& library, const QString& group, Q
   filter_->setPlaceholderText(tr("Find: granite, glass, ..."));
   filter_->setObjectName("library_filter");
   filter_->setAccessibleName(tr("Find a material"));
-  filter_->setToolTip(tr("Shows the materials whose name or kind has these letters"));
+  filter_->setToolTip(tr("Shows the materials whose name or kind contains this text"));
   list_->setHeaderHidden(true);
   list_->setObjectName("library_list");
   list_->setAccessibleName(tr("Materials"));
@@ -44,7 +44,7 @@ LibraryDialog::LibraryDialog(const UserLibrary& library, const QString& group, Q
   values_->setHorizontalHeaderLabels({tr("key"), tr("value"), tr("source")});
   values_->setObjectName("library_values");
   values_->setAccessibleName(tr("Values of the material"));
-  values_->setToolTip(tr("Every value with its source: derived and assumed ones say so"));
+  values_->setToolTip(tr("Every value with its source; derived and assumed values are marked"));
   values_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   values_->setTabKeyNavigation(false);
   values_->setWordWrap(true);

@@ -16,7 +16,7 @@ struct ChartMark {
   QString name;
 };
 
-/// Lines with a legend, told apart by dashes and marks as well as by colour.
+/// Lines with a legend, distinguished by dashes and marks as well as by colour.
 class LineChart final : public QWidget {
   Q_OBJECT
  public:

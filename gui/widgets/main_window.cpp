@@ -97,7 +97,7 @@ MainWindow::MainWindow(Places places, QWidget* parent)
   qApp->installEventFilter(new WheelGuard(this));
 }
 
-/// Children that are hidden hand the cursor on, and a field that loses it asks the document, which must still be there.
+/// Hidden children pass the focus on, and a field that loses it reads the document, which must still exist.
 MainWindow::~MainWindow() { hide(); }
 
 bool MainWindow::busy() const { return queries_.busy() || import_.busy() || loader_->busy() || histogram_->busy(); }
@@ -235,7 +235,7 @@ void MainWindow::join_panels() {
   connect(&queries_, &CaseQueries::divided, this, &MainWindow::show_division);
   connect(&queries_, &CaseQueries::failed, this, &MainWindow::query_failed);
   connect(&queries_, &CaseQueries::busy_changed, this,
-          [this] { busy_->setText(queries_.busy() ? tr("the solver is asked...") : QString()); });
+          [this] { busy_->setText(queries_.busy() ? tr("waiting for the solver...") : QString()); });
   connect(loader_, &FrameLoader::loaded, this, &MainWindow::show_frame);
   connect(loader_, &FrameLoader::loaded, results_, &ResultsPanel::frame_shown);
   connect(start_, &StartPage::template_chosen, this, [this](int n) { open_template(n, false); });
@@ -307,7 +307,7 @@ void MainWindow::join_panels() {
   connect(queue_panel_, &QueuePanel::worker_wanted, this, &MainWindow::start_worker);
   connect(queue_panel_, &QueuePanel::run_chosen, this, &MainWindow::open_run);
   connect(queue_panel_, &QueuePanel::stop_wanted, this, [this](const QString& folder) {
-    queue_panel_->changed_with(queue_.note_stop(folder));  // whatever the run leaves behind, the list says how it ended
+    queue_panel_->changed_with(queue_.note_stop(folder));  // the list shows how the run ended, for any files it leaves
     for (SolverRun* run : runs_)
       if (run->record().folder == folder) run->stop();
   });
@@ -324,7 +324,7 @@ void MainWindow::join_panels() {
   connect(report_, &ReportMaker::done, this, &MainWindow::report_made);
   connect(results_, &ResultsPanel::animation_wanted, this, &MainWindow::save_animation);
   connect(results_, &ResultsPanel::frame_wanted, this, [this](int n) {
-    // A stage of the case shows the mesh at rest, whatever the run writes meanwhile.
+    // A stage of the case shows the mesh at rest, also while a run writes frames.
     if (!showing_results_ || run_ == nullptr || n >= static_cast<int>(run_->frames().size())) return;
     load_frame_of_run(run_->frames()[static_cast<std::size_t>(n)]);
   });

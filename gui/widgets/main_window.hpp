@@ -87,7 +87,7 @@ class MainWindow final : public QMainWindow {
   void make_extras(QVBoxLayout& column);
   void make_actions();  // main_window_actions.cpp
   void join_panels();
-  /// Those that need a case or a run say so while there is none.
+  /// Updates which actions are enabled; disabled ones state that they need a case or a run.
   void show_actions();
   [[nodiscard]] std::vector<QWidget*> tab_order() const;
 
@@ -117,7 +117,7 @@ class MainWindow final : public QMainWindow {
   /// What the mesh of the case is made of.
   [[nodiscard]] QString mesh_source() const;
   void ask_mesh();
-  /// What the geometry lets the case set, where the case names another one than was asked about.
+  /// Queries the parameters of the geometry, if it is another one than at the last query.
   void ask_parameters();
   void stage_selected(int stage, const QString& path);
   void go_to(const QString& key, int line);
@@ -130,21 +130,21 @@ class MainWindow final : public QMainWindow {
   void picked(const Scene::Picked& what);
   void show_groups(const QStringList& groups);
   void show_loads();
+  void open_guide();
   void take_from_library();
   void add_to_library();
 
-  // main_window_file.cpp: the file of the case, and what is kept of edits
-  /// Tells what cannot be kept, once and until it can. @param error  empty: it can
-  void open_guide();
+  // main_window_file.cpp: the file of the case, and stored edits
+  /// Reports that something cannot be stored, once until it can. @param error  empty: it can
   void tell_trouble(const QString& what, const QString& words, const QString& error);
   void remember_file();
   [[nodiscard]] bool save();
   void save_as();
   void look_at_disk();
-  /// Tells whether another window has the case open.
+  /// Reports whether another window has the case open.
   void claim_case();
   [[nodiscard]] bool agrees_with_disk();
-  /// Another program has changed the file: asks which of both stays. False: it was not settled.
+  /// Another program has changed the file: the user chooses the version to keep. False: no choice was made.
   [[nodiscard]] bool settle_with_disk();
   [[nodiscard]] bool may_leave_case();
 
@@ -153,7 +153,7 @@ class MainWindow final : public QMainWindow {
   void join_import();
   void take_geometry(const QJsonObject& mesh);
 
-  // main_window_answers.cpp: what the solver says of the case
+  // main_window_answers.cpp: reports of the solver on the case
   void show_check(const QJsonObject& json);
   void show_mesh(const QJsonObject& json, const QString& elements_file);
   void name_groups();
@@ -162,7 +162,7 @@ class MainWindow final : public QMainWindow {
   void show_division(const QJsonObject& json);
   void show_laws(const QJsonObject& json);
   void show_parameters(const QJsonObject& json);
-  /// The solver has answered a question: what it said against the case before does not hold any more.
+  /// A query succeeded: former problems of this query are obsolete.
   void query_succeeded(Query what);
   void query_failed(Query what, const QString& text, const std::vector<Problem>& problems, const QByteArray& asked);
 
@@ -176,16 +176,16 @@ class MainWindow final : public QMainWindow {
   // main_window_runs.cpp: runs and their results
   void start_run();
   void go_on_with_run();
-  /// Whether the run that is shown is to go on though its case has been edited since. It may start a new one instead.
+  /// Whether to resume the run that is shown although its case has been edited since. It may start a new one instead.
   [[nodiscard]] bool resumes_as_it_was_run();
-  /// More ranks than cores need the user's agreement, which is asked for where they are set.
+  /// More ranks than cores need the user's agreement, which is requested where they are set.
   [[nodiscard]] bool ranks_are_accepted();
   void pause_or_resume();
   void show_commands();
   void take_run(SolverRun* run);
   void open_run(const QString& path);
   void open_other_run();
-  /// Looks for the runs of the case, of whatever window or terminal they are.
+  /// Searches for the runs of the case, from any window or terminal.
   void find_runs_of_case();
   void list_runs_of_case();
   /// The one that is watched, or is from now on.
@@ -225,14 +225,14 @@ class MainWindow final : public QMainWindow {
   WindowMemory memory_;
   QByteArray layout_;  ///< of the docks while the start page hides them; empty: as they are made
   Document document_;
-  std::unique_ptr<QLockFile> claim_;  ///< held while the case is open here
+  std::unique_ptr<QLockFile> claim_;  ///< locked while the case is open here
   QString claimed_;                   ///< file of that lock; empty: none
   CaseQueries queries_;
   SolverQuery import_;
-  QString imported_;  ///< file that import_ asks about
+  QString imported_;  ///< file of the dialog import_
   RunRegistry registry_;
   RunQueue queue_;
-  QStringList waiting_;  ///< folders of the runs that waited when the queue was last looked at
+  QStringList waiting_;  ///< folders of the runs that waited when the queue was last read
   UserLibrary library_;
   std::vector<SolverRun*> runs_, compared_;
   SolverRun* run_ = nullptr;  ///< the one that is shown
@@ -240,23 +240,23 @@ class MainWindow final : public QMainWindow {
   ParaViewResults* paraview_;
   AnimationExport* animation_ = nullptr;
   ReportMaker* report_;
-  std::vector<RunOrigin> beside_;   ///< runs of the case, as last looked for
-  QHash<QString, QString> states_;  ///< of those, by folder, as last looked for
+  std::vector<RunOrigin> beside_;   ///< runs of the case, at the last search
+  QHash<QString, QString> states_;  ///< of those, by folder, at the last search
   QString curves_file_;             ///< of the table that waits for the histories; empty: none
   QTimer validation_, preview_, law_, estimate_;
-  QByteArray estimated_;  ///< text of the case that the estimate is of; empty: none was asked for
+  QByteArray estimated_;  ///< text of the case that the estimate is of; empty: none was requested
   std::vector<Problem> problems_;
   SolverProblems told_;     ///< that the solver's commands have found
   std::vector<int> owner_;  ///< rank of each element of the preview
   FrameData preview_frame_;
   bool showing_results_ = false, run_when_checked_ = false;
   std::vector<Condition> loads_;     ///< of the case, as last read
-  QJsonArray laws_;                  ///< of joints, as last told
-  QByteArray laws_asked_, laws_of_;  ///< text of the case that they were asked for; that they were told of
-  QString laws_error_;               ///< why they were not told
-  std::optional<QString> geometry_;  ///< .geo whose numbers the form has, or will; none: not looked at yet
+  QJsonArray laws_;                  ///< of joints, as last reported
+  QByteArray laws_asked_, laws_of_;  ///< text of the case at the query; of the reported laws
+  QString laws_error_;               ///< error of the query
+  std::optional<QString> geometry_;  ///< .geo whose parameters the form has, or will; none: not queried yet
   QString mesh_text_;                ///< what the preview was made of
-  QString mesh_asked_, groups_of_;   ///< what the mesh was asked of; what the groups are of
+  QString mesh_asked_, groups_of_;   ///< source of the mesh query; source of the groups
   std::optional<MeshGroups> mesh_groups_;
   QString mesh_file_;                ///< its elements, until they have been read
   std::vector<std::string> groups_;  ///< names of the volume groups of the preview

@@ -108,7 +108,7 @@ void MainWindow::make_actions() {
       [this](bool on) {
         set_dark(on);
         memory_.set_dark(on);
-        tell_trouble("window", tr("The look of the window is not kept for the next session"), memory_.error());
+        tell_trouble("window", tr("The layout of the window is not stored for the next session"), memory_.error());
       },
       true);
   dark_->setCheckable(true);
@@ -153,11 +153,11 @@ void MainWindow::show_actions() {
   const QString no_case = tr("no case is open"), no_run = tr("no run is shown");
   for (QAction* action : needs_case_) set(action, open, no_case);
   for (QAction* action : needs_run_) set(action, run_ != nullptr, no_run);
-  for (QAction* action : needs_alive_) set(action, alive, tr("no run that goes on is shown"));
+  for (QAction* action : needs_alive_) set(action, alive, tr("no run in progress is shown"));
   set(resume_action_, run_ != nullptr && run_->can_go_on(), tr("no run that has ended before its time is shown"));
   const QString words = !open                ? no_case
                         : !problems_.empty() ? tr("the case has problems; F8 goes to the next one")
-                                             : tr("the run that is shown goes on");
+                                             : tr("the run that is shown is in progress");
   set(run_action_, open && problems_.empty() && !alive, words);
   set(queue_action_, open && problems_.empty(), words);
 }

@@ -68,7 +68,7 @@ void MainWindow::query_succeeded(Query what) {
   validate();
   if (!told) return;
   if (what == Query::mesh) {
-    ask_estimate();  // the mesh is good; whether the rest is, only a check can tell
+    ask_estimate();  // the mesh is good; the rest needs a check
   } else if (preview_frame_.skin == nullptr && mesh_file_.isEmpty()) {
     ask_mesh();
   }
@@ -162,7 +162,7 @@ void MainWindow::show_division(const QJsonObject& json) {
                     tr("mesh at rest, as %1 ranks would share it").arg(json["domains"].toArray().size()));
 }
 
-/// A problem with a place in the case is one of the case, at its field; others are told until the question is answered.
+/// A problem with a place in the case is one of the case, at its field; others are shown until the query succeeds.
 void MainWindow::query_failed(Query what, const QString& text, const std::vector<Problem>& problems,
                               const QByteArray& asked) {
   QStringList words{text};

@@ -182,7 +182,7 @@ void MainWindow::ask_estimate() {
 void MainWindow::renew_estimate() {
   if (estimated_ == document_.text()) return;
   if (!estimated_.isEmpty())
-    run_panel_->set_estimate(problems_.empty() ? tr("The case was edited: it is worked out anew...")
+    run_panel_->set_estimate(problems_.empty() ? tr("The case was edited: updating the estimate...")
                                                : tr("The case was edited, and has problems."));
   if (!problems_.empty()) return estimate_.stop();
   estimate_.start(estimated_.isEmpty() ? 0 : kPreviewDelay);

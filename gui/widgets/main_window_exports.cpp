@@ -166,7 +166,7 @@ void MainWindow::save_picture() {
     QMessageBox::warning(this, tr("Breccia"), error);
 }
 
-/// The solver says what there is to say of a run; ParaView draws for it, which takes a while.
+/// The solver makes the report of a run; ParaView draws for it, which takes a while.
 void MainWindow::make_report() {
   if (run_ == nullptr || report_->busy()) return;
   const QString suggested = QDir(run_->record().folder).filePath("report.html");

@@ -103,7 +103,7 @@ void MainWindow::look_at_disk() {
                document_.is_open() && !document_.is_on_disk() ? document_.file() : QString());
 }
 
-/// Whether what is run is what the window shows. A case with edits of its own is saved, which asks by itself.
+/// Whether the case on disk is the one in the window. An edited case is saved, with its own dialog.
 bool MainWindow::agrees_with_disk() {
   if (!document_.is_open() || document_.modified() || document_.is_on_disk()) return true;
   return QFileInfo::exists(document_.file()) ? settle_with_disk() : save();
@@ -113,7 +113,7 @@ bool MainWindow::settle_with_disk() {
   QMessageBox box(QMessageBox::Question, tr("Breccia"),
                   tr("Another program has changed\n%1\nsince it was opened.").arg(document_.file()),
                   QMessageBox::Open | QMessageBox::Save | QMessageBox::Cancel, this);
-  box.setInformativeText(tr("What it has otherwise than this window (undo brings back what is here now):\n%1")
+  box.setInformativeText(tr("Its differences from this window (undo restores the present text):\n%1")
                              .arg(differences_words(document_.text(), content_of(document_.file()))));
   box.button(QMessageBox::Open)->setText(tr("&Take that over"));
   box.button(QMessageBox::Save)->setText(tr("&Write over it"));
@@ -143,14 +143,17 @@ void MainWindow::claim_case() {
   claimed_ = lock;
   QString other;
   if (claim_ != nullptr && !claim_->isLocked()) {
-    claim_->setStaleLockTime(0);  // however long it is open; that of a process that is gone does not count
+    claim_->setStaleLockTime(0);  // no time limit; a lock of a process that has ended does not count
     qint64 process = 0;
     QString host, program;
     if (!claim_->tryLock(0) && claim_->error() == QLockFile::LockFailedError &&
         claim_->getLockInfo(&process, &host, &program))
       other = tr("process %1 on %2 has %3 open").arg(process).arg(host, document_.file());
   }
-  tell_trouble("elsewhere", tr("This case is open in another window as well, and what is saved last stays"), other);
+  tell_trouble("elsewhere",
+               tr("This case is open in another window as well; the last save overwrites earlier "
+                  "ones"),
+               other);
 }
 
 }  // namespace breccia::gui

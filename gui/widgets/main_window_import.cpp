@@ -32,7 +32,7 @@ void MainWindow::join_import() {
   });
 }
 
-/// The solver has read it: what its lengths are is asked where the file does not say so.
+/// The solver has read it: a dialog requests the unit if the file does not state it.
 void MainWindow::take_geometry(const QJsonObject& mesh) {
   busy_->clear();
   double metres = 1;
@@ -43,8 +43,8 @@ void MainWindow::take_geometry(const QJsonObject& mesh) {
       choices << tr("%1: %2 x %3 x %4 m").arg(unit.name).arg(x * unit.metres).arg(y * unit.metres).arg(z * unit.metres);
     bool good = false;
     const QString chosen = QInputDialog::getItem(this, tr("Unit of the geometry"),
-                                                 tr("%1 does not say in which unit its lengths are.\nIts box is %2 x "
-                                                    "%3 x %4. The model would be, with a unit of")
+                                                 tr("%1 does not state the unit of its lengths.\nIts box is %2 x %3 x "
+                                                    "%4. The model would be, with a unit of")
                                                      .arg(QFileInfo(imported_).fileName())
                                                      .arg(x)
                                                      .arg(y)

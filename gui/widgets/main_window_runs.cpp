@@ -58,7 +58,7 @@ QStringList MainWindow::command_line() const {
 }
 
 void MainWindow::remember_run(const RunRecord& record) {
-  tell_trouble("runs", tr("The run goes on, but later windows will not list it (File > Open results)"),
+  tell_trouble("runs", tr("The run continues, but later windows will not list it (File > Open results)"),
                registry_.add(record));
 }
 
@@ -76,7 +76,7 @@ void MainWindow::start_run() {
   if (!agrees_with_disk()) return;
   validate();
   const bool saved = !problems_.empty() || !document_.modified() || save();
-  validate();  // the text of another program may have been taken over
+  validate();  // the text of another program may have been loaded
   if (!saved || !problems_.empty()) {
     show_dock("dock_messages");
     return;
@@ -103,8 +103,8 @@ bool MainWindow::resumes_as_it_was_run() {
       !was_run_with_another(record.folder, document_.text()))
     return true;
   QMessageBox box(QMessageBox::Question, tr("Breccia"),
-                  tr("%1\nhas been edited since this run was started. What is resumed is the case as it was run, "
-                     "without these edits. A new run has them, and begins at the start.")
+                  tr("%1\nhas been edited since this run was started. Resuming uses the case without these edits. A "
+                     "new run uses them, from the start.")
                       .arg(document_.file()),
                   QMessageBox::Yes | QMessageBox::No | QMessageBox::Cancel, this);
   box.button(QMessageBox::Yes)->setText(tr("Resume as it was &run"));
@@ -215,7 +215,7 @@ void MainWindow::find_runs_of_case() {
     if (!is_listed && (run == run_ || run->record().case_file == document_.file()))
       beside_.push_back(origin_of(folder));
   }
-  // One that has just been started has told nothing yet.
+  // One that has just been started has no status yet.
   const auto when = [](const RunOrigin& one) {
     return one.started.isValid() ? one.started.toMSecsSinceEpoch() : std::numeric_limits<qint64>::max();
   };
@@ -226,7 +226,7 @@ void MainWindow::find_runs_of_case() {
   list_runs_of_case();
 }
 
-/// Those that are watched say how they go.
+/// Monitored runs show their progress.
 void MainWindow::list_runs_of_case() {
   std::vector<RunChoice> choices;
   for (const RunOrigin& one : beside_) {
@@ -241,7 +241,7 @@ void MainWindow::list_runs_of_case() {
   results_->set_choices(choices);
 }
 
-/// The latest run of the case is at hand, though nobody has asked for it; one that goes on comes before all others.
+/// Selects the latest run of the case by default; one in progress comes before all others.
 void MainWindow::attach_newest_run() {
   find_runs_of_case();
   if (beside_.empty()) return;
@@ -329,7 +329,7 @@ void MainWindow::run_ended(const SolverRun* run) {
   }
 }
 
-/// Of what has broken one looks at the fragments in the end, while it breaks at the cracks.
+/// For broken models fragments are of interest at the end, and cracks during the run.
 void MainWindow::offer_fragments() {
   if (!showing_results_ || run_ == nullptr) return;
   if (run_->alive()) {

@@ -9,7 +9,7 @@
 
 #include "core/written_file.hpp"
 
-/// Resources of a library are left out unless they are asked for, outside of any namespace.
+/// Resources of a library are omitted unless they are initialised, outside of any namespace.
 static void take_script() { Q_INIT_RESOURCE(paraview); }
 
 namespace breccia::gui {

@@ -24,7 +24,7 @@ class ParaViewResults final : public QObject {
  private:
   void start();
 
-  QProcess version_;  ///< asks ParaView for its version, by which its settings are named
+  QProcess version_;  ///< queries the version of ParaView, by which its settings are named
   QString program_, run_, up_, script_;
 };
 

@@ -63,7 +63,7 @@ PlotsPanel::PlotsPanel(QWidget* parent)
   too_many_->hide();
   list_->setObjectName("curves");
   list_->setAccessibleName(tr("Curves"));
-  list_->setToolTip(tr("Which curves are drawn, in a chart for each unit (space ticks the one in hand)"));
+  list_->setToolTip(tr("Curves to draw, in a chart for each unit (space ticks the current one)"));
   list_->header()->hide();
   list_->setMinimumWidth(120);
   auto* row = new QSplitter;
@@ -153,14 +153,14 @@ void PlotsPanel::ticked(QTreeWidgetItem* item) {
   draw();
 }
 
-/// A curve that nobody has asked for is drawn once it is neither zero throughout nor mere rounding.
+/// A curve that is not selected by the user is drawn once it is neither zero throughout nor mere rounding.
 bool PlotsPanel::is_drawn(int column) const {
   const QString& name = history_->columns()[column];
   if (ticks_.contains(name)) return ticks_.value(name);
   return is_first_choice(name) && history_->largest(column) > 0 && !round_off_[static_cast<std::size_t>(column)];
 }
 
-/// Curves that are mere rounding say so; those of them that nobody has ticked are drawn once they are.
+/// Curves that are mere rounding are marked; those not ticked by the user are drawn once they are more.
 void PlotsPanel::tell_round_off() {
   round_off_ = are_round_off(*history_);
   const QSignalBlocker quiet(list_);
@@ -171,7 +171,7 @@ void PlotsPanel::tell_round_off() {
     const QString name = parts_of(column).name, words = rounding ? tr("%1 (only rounding)").arg(name) : name;
     if ((*it)->text(0) == words) continue;
     (*it)->setText(0, words);
-    (*it)->setToolTip(0, rounding ? tr("%1: what rounding leaves of nothing; a tick draws it").arg(column) : column);
+    (*it)->setToolTip(0, rounding ? tr("%1: zero except for rounding; tick to draw it").arg(column) : column);
     if (!ticks_.contains(column))
       (*it)->setCheckState(0, is_first_choice(column) && !rounding ? Qt::Checked : Qt::Unchecked);
   }

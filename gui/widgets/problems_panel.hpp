@@ -16,7 +16,7 @@ class ProblemsPanel final : public QListWidget {
   void set_problems(const std::vector<Problem>& problems);
   void set_advice(const QStringList& advice);
   void add_message(const QString& text);
-  /// What this program cannot do for the user, told until it can. @param text  empty: it can
+  /// Shows a failure of the desktop until it is resolved. @param text  empty: resolved
   /// @return  whether that is news
   bool set_trouble(const QString& what, const QString& text);
   /// Goes to the next problem, round and round.

@@ -247,7 +247,7 @@ bool PropertyForm::take_pick(const QString& volume, const QStringList& surfaces)
   if (path.isEmpty() || !fields_.contains(path)) return false;
   const Key& key = *fields_[path].key;
   const GroupKind kind = group_kind(key);
-  if (kind == GroupKind::surface && surfaces.isEmpty()) return true;  // goes on waiting
+  if (kind == GroupKind::surface && surfaces.isEmpty()) return true;  // continues to wait
   const QString group = kind != GroupKind::volume && !surfaces.isEmpty() ? surfaces.first() : volume;
   const bool many = names_many_groups(key);
   if (auto* pick = findChild<QToolButton*>("pick:" + path); pick != nullptr && !many) pick->setChecked(false);

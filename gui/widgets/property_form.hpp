@@ -29,14 +29,14 @@ class PropertyForm final : public QScrollArea {
   void set_problems(const std::vector<Problem>& problems);
   /// What fields that name groups offer.
   void set_groups(const std::optional<MeshGroups>& groups);
-  /// What the geometry lets mesh.parameters set; none: it has not been told.
+  /// Parameters of the geometry for mesh.parameters; none: not reported yet.
   void set_parameters(const std::optional<std::vector<MeshParameter>>& parameters);
   /// A face was clicked on in the view. True: a field waits for it, and has taken the group that it can name, a surface
-  /// before a volume where both can be. A list gets one more, and goes on waiting.
+  /// before a volume where both can be. A list gets one more, and continues to wait.
   bool take_pick(const QString& volume, const QStringList& surfaces);
   /// Puts the cursor into the field of a path, if it is here.
   void focus_field(const QString& path);
-  /// Takes over what stands in the field with the cursor: keys and buttons that act on the case leave no field.
+  /// Commits the text of the focused field: keys and buttons that act on the case do not move the focus.
   void take_typed();
 
  signals:

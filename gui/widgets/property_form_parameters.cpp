@@ -17,7 +17,7 @@ QString tip_of(const ParameterRow& row) {
   const auto line = [](const QString& name, const QString& text) {
     return text.isEmpty() ? QString() : QString("<br><i>%1</i> %2").arg(name, text.toHtmlEscaped());
   };
-  const QString words = row.is_known ? row.words : PropertyForm::tr("The geometry knows no such number.");
+  const QString words = row.is_known ? row.words : PropertyForm::tr("The geometry has no such number.");
   return "<b>" + row.path().toHtmlEscaped() + "</b><br>" + words.toHtmlEscaped() +
          line(PropertyForm::tr("Unit:"), PropertyForm::tr("that in which the geometry counts; with a unit, in SI")) +
          line(PropertyForm::tr("Default:"), row.fallback);
@@ -39,7 +39,7 @@ void PropertyForm::add_parameters(const case_::Key& key, QFormLayout& layout) {
   rows->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   for (const ParameterRow& row : parameter_rows_) add_parameter(row, *rows);
   if (parameter_rows_.empty()) {
-    auto* none = new QLabel(parameters_ ? tr("This mesh has none that can be set.") : tr("The solver is asked..."));
+    auto* none = new QLabel(parameters_ ? tr("This mesh has none that can be set.") : tr("Waiting for the solver..."));
     none->setWordWrap(true);
     rows->addRow(none);
   }

@@ -13,10 +13,10 @@
 namespace breccia::gui {
 namespace {
 
-constexpr int kLook = 1000;         // ms
-constexpr int kProgress = 2;        // column
-constexpr int kWhole = 1000;        // of a bar
-constexpr qint64 kStarting = 5000;  // ms that a worker needs at most before it holds its lock
+constexpr int kUpdateInterval = 1000;  // ms
+constexpr int kProgress = 2;           // column
+constexpr int kWhole = 1000;           // of a bar
+constexpr qint64 kStarting = 5000;     // ms that a worker needs at most before it holds its lock
 
 }  // namespace
 
@@ -46,7 +46,7 @@ QueuePanel::QueuePanel(const RunQueue& queue, QWidget* parent)
   column->addWidget(why_);
   column->addLayout(row);
   connect(&timer_, &QTimer::timeout, this, &QueuePanel::look);
-  timer_.start(kLook);
+  timer_.start(kUpdateInterval);
   contents_ = queue_.load();
   show_contents();
 }
@@ -80,11 +80,10 @@ void QueuePanel::make_buttons(QHBoxLayout& row) {
   cores_->setRange(1, 4096);
   cores_->setObjectName("queue_cores");
   cores_->setAccessibleName(tr("Cores for runs"));
-  cores_->setToolTip(
-      tr("Ranks that may run at a time, those of runs started by hand among them; 1: one run after another"));
+  cores_->setToolTip(tr("Largest number of ranks in use, runs started by hand included; 1: one run after another"));
   held_->setObjectName("queue_hold");
   held_->setAccessibleName(tr("Hold the queue"));
-  held_->setToolTip(tr("Nothing more is started; what runs goes on"));
+  held_->setToolTip(tr("No further runs are started; those in progress continue"));
   auto* label = new QLabel(tr("C&ores"));
   label->setBuddy(cores_);
   row.addWidget(label);

@@ -15,13 +15,13 @@
 
 namespace breccia::gui {
 
-/// The queue of runs: its order, how it goes, and how many cores it may use. It is looked at every second, since the
-/// worker and other windows change it.
+/// The queue of runs: its order, progress, and number of cores. It is read every second, since the worker and other
+/// windows change it.
 class QueuePanel final : public QWidget {
   Q_OBJECT
  public:
   explicit QueuePanel(const RunQueue& queue, QWidget* parent = nullptr);
-  /// Reads the file if it has changed, and asks for a worker where one is missing.
+  /// Reads the file if it has changed, and requests a worker if one is missing.
   void look();
   /// Shows the list as it is after a change was tried. @param error  empty: it was made
   void changed_with(const QString& error);
@@ -39,7 +39,7 @@ class QueuePanel final : public QWidget {
   void make_table();
   void make_buttons(QHBoxLayout& row);
   void show_contents();
-  /// How far the runs are that go on.
+  /// Shows the progress of the runs.
   void show_progress();
   void show_buttons();
   /// Why the chosen run failed; none is chosen: the last one that did.
@@ -50,7 +50,7 @@ class QueuePanel final : public QWidget {
 
   const RunQueue& queue_;
   QueueContents contents_;
-  std::map<QString, RunProgress> progress_;  ///< by folder, of those that go on
+  std::map<QString, RunProgress> progress_;  ///< by folder, of those in progress
   QByteArray mark_;
   QTimer timer_;
   QElapsedTimer since_worker_;

@@ -55,7 +55,7 @@ ResultsPanel::ResultsPanel(QWidget* parent)
       tr("Start ParaView with the frames of this run, bodies by stress and joints by time of failure"));
   picture_->setObjectName("save_picture");
   picture_->setAccessibleName(tr("Save picture"));
-  picture_->setToolTip(tr("Save what the 3D view shows as PNG"));
+  picture_->setToolTip(tr("Save the 3D view as PNG"));
   curves_->setObjectName("export_curves");
   curves_->setAccessibleName(tr("Export curves"));
   curves_->setToolTip(tr("Save the history of this run, and of those ticked in the table of runs, as CSV"));
@@ -103,7 +103,7 @@ ResultsPanel::ResultsPanel(QWidget* parent)
 
 void ResultsPanel::make_picker(QVBoxLayout& column) {
   runs_->setObjectName("results_run");
-  runs_->setAccessibleName(tr("Run that is looked at"));
+  runs_->setAccessibleName(tr("Run that is shown"));
   runs_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   runs_->setMinimumContentsLength(12);
   connect(runs_, qOverload<int>(&QComboBox::activated), this, [this](int row) {

@@ -18,7 +18,7 @@ struct RunChoice {
   bool operator==(const RunChoice&) const = default;
 };
 
-/// Which run is looked at, and a walk through its recorded frames, also while it goes on.
+/// Selection of a run, and playback of its recorded frames, also during the run.
 class ResultsPanel final : public QWidget {
   Q_OBJECT
  public:
@@ -37,7 +37,7 @@ class ResultsPanel final : public QWidget {
   /// The frame in hand is wanted once more, since it is to be drawn otherwise.
   void ask_again() { moved(slider_->value()); }
   void stop_playing() { play_->setChecked(false); }
-  /// The frame that was asked for last is seen: while frames are played, the next one follows.
+  /// The frame requested last is shown: while frames are played, the next one follows.
   void frame_shown();
 
  signals:

@@ -31,7 +31,7 @@ QString duration_words(double seconds) {
 }
 
 QString to_go_words(const RunStatus& status) {
-  constexpr double kShare = 0.01, kWall = 20;  // s; the first steps, with reading and meshing, tell nothing of the rest
+  constexpr double kShare = 0.01, kWall = 20;  // s; the first steps, with reading and meshing, are not representative
   return status.share < kShare && status.wall < kWall ? RunPanel::tr("not known yet") : duration_words(status.eta);
 }
 
@@ -54,16 +54,15 @@ RunPanel::RunPanel(QWidget* parent)
       oversubscribe_(new QCheckBox(tr("Run more ranks than cores"))),
       run_(named_button(tr("R&un"), "run", tr("Save the case and start the run (F5)"))),
       queue_(named_button(tr("Add to &queue"), "queue_run",
-                          tr("Run the case as it is now when its turn comes and cores are free (Ctrl+Shift+F5)"))),
-      pause_(named_button(tr("&Pause"), "pause", tr("Wait between two steps, and go on"))),
+                          tr("Queue the present case; it starts in order when cores are free (Ctrl+Shift+F5)"))),
+      pause_(named_button(tr("&Pause"), "pause", tr("Wait between two steps; press again to continue"))),
       checkpoint_(named_button(tr("Check&point"), "checkpoint",
-                               tr("Write the whole state now; the run can be resumed from there, whatever happens"))),
-      stop_(
-          named_button(tr("&Stop"), "stop",
-                       tr("End after the present step with everything written; what does not end in time is killed"))),
-      go_on_(
-          named_button(tr("Resu&me from checkpoint"), "go_on",
-                       tr("Go on to the same results as if nothing had happened, on as many ranks as are set above"))),
+                               tr("Write the whole state now; the run can be resumed from there"))),
+      stop_(named_button(tr("&Stop"), "stop",
+                         tr("End after the present step with everything written; processes that do not end in time are "
+                            "killed"))),
+      go_on_(named_button(tr("Resu&me from checkpoint"), "go_on",
+                          tr("Continue the run, on as many ranks as are set above; results are bitwise identical"))),
       check_(named_button(tr("Chec&k"), "check", tr("Stable step, run time, memory and disk, with advice (F7)"))),
       results_(named_button(tr("&Open results"), "open_results", tr("Walk through the recorded frames of this run"))),
       command_(new QLineEdit),
@@ -90,7 +89,7 @@ RunPanel::RunPanel(QWidget* parent)
   failure_->setReadOnly(true);
   failure_->setObjectName("failure");
   failure_->setAccessibleName(tr("Why the run failed"));
-  failure_->setToolTip(tr("What the solver said"));
+  failure_->setToolTip(tr("Message of the solver"));
   failure_->setTabChangesFocus(true);
   failure_->hide();
 
@@ -135,7 +134,9 @@ void RunPanel::make_ranks(QVBoxLayout& column) {
       tr("Processes that share the model; this machine has %1 cores, at most %2 ranks are started on each")
           .arg(cores)
           .arg(kMostOnACore));
-  warning_->setText(tr("⚠ more ranks than the %1 cores of this machine: they will be in each other's way").arg(cores));
+  warning_->setText(tr("⚠ more ranks than the %1 cores of this machine: oversubscription slows the run "
+                       "down")
+                        .arg(cores));
   warning_->setWordWrap(true);
   oversubscribe_->setObjectName("oversubscribe");
   oversubscribe_->setAccessibleName(oversubscribe_->text());
@@ -158,7 +159,7 @@ void RunPanel::make_ranks(QVBoxLayout& column) {
   connect(oversubscribe_, &QCheckBox::toggled, this, [this] { set_problems(problems_); });
 }
 
-/// A run that goes on is seen without scrolling; what was estimated before it stands below.
+/// A run in progress is visible without scrolling; its former estimate is below.
 void RunPanel::make_buttons(QVBoxLayout& column) {
   auto* grid = new QGridLayout;
   grid->addWidget(run_, 0, 0);

@@ -14,8 +14,8 @@ class QVBoxLayout;
 
 namespace breccia::gui {
 
-/// Starting a run, and how it goes: estimate, ranks, command line, progress, pause, checkpoint, stop, and
-/// going on from a checkpoint.
+/// Start and control of a run: estimate, ranks, command line, progress, pause, checkpoint, stop, and resume from a
+/// checkpoint.
 class RunPanel final : public QWidget {
   Q_OBJECT
  public:
@@ -27,7 +27,7 @@ class RunPanel final : public QWidget {
   [[nodiscard]] bool accepts_ranks() const;
   /// Puts the cursor where one agrees to more ranks than cores.
   void ask_for_agreement() { oversubscribe_->setFocus(Qt::OtherFocusReason); }
-  /// @param go_on  that of the run in hand, should it go on from its checkpoint; empty: it cannot
+  /// @param go_on  that to resume the selected run from its checkpoint; empty: it cannot be resumed
   void set_command(const QStringList& command, const QStringList& go_on);
   void set_problems(int count);
   /// Answer of `check --json`.
@@ -69,9 +69,9 @@ class RunPanel final : public QWidget {
 [[nodiscard]] QString run_words(int problems);
 /// "3 min 20 s".
 [[nodiscard]] QString duration_words(double seconds);
-/// How long a run will go on: "3 min 20 s"; "-" for one that does not go on now.
+/// Remaining time of a run: "3 min 20 s"; "-" for one that is not in progress.
 [[nodiscard]] QString to_go_words(const SolverRun& run);
-/// The same of a run that goes on.
+/// The same of a run in progress.
 [[nodiscard]] QString to_go_words(const RunStatus& status);
 /// "12.3 us" with a prefix of the unit.
 [[nodiscard]] QString quantity_words(double value, const QString& unit);

@@ -8,7 +8,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-/// What a static library holds has to be asked for, from outside of any namespace.
+/// Resources of a static library have to be initialised, outside of any namespace.
 static void take_pictures_of_templates() { Q_INIT_RESOURCE(templates); }
 
 namespace breccia::gui {
@@ -33,7 +33,7 @@ QIcon icon_of(const Template& t) {
   return QIcon(picture);
 }
 
-/// Says what it will hold as long as it holds nothing.
+/// Shows a hint while it is empty.
 class HintedList final : public QListWidget {
  public:
   explicit HintedList(const QString& hint) : hint_(hint) { setAccessibleDescription(hint); }
@@ -73,7 +73,7 @@ StartPage::StartPage(const Places& places, QWidget* parent)
                       tr("No template was found: the folder of shipped cases is missing."))),
       recent_(list("recent", tr("Recent cases"), tr("None yet. Cases that are opened or saved here will be listed."))),
       runs_(list("start_runs", tr("Runs started here"),
-                 tr("None yet. Runs that are started here will be listed; those that go on say so."))) {
+                 tr("None yet. Runs that are started here will be listed with their state."))) {
   auto* demo = new QPushButton(tr("&Show me: shatter the glass plate"));
   demo->setObjectName("demo");
   demo->setAccessibleName(tr("Show me: shatter the glass plate"));
@@ -128,7 +128,7 @@ StartPage::StartPage(const Places& places, QWidget* parent)
   connect(runs_, &QListWidget::itemClicked, this,
           [this](QListWidgetItem* i) { emit run_chosen(i->data(Qt::UserRole).toString()); });
   const auto enter = [this](QListWidgetItem* i) {
-    // The style may call a click an activation as well; the page is gone by then.
+    // The style may call a click an activation as well; the page is closed by then.
     if (!isVisible()) return;
     if (i->listWidget() == templates_) emit template_chosen(templates_->row(i));
     if (i->listWidget() == recent_) emit case_chosen(i->data(Qt::UserRole).toString());

@@ -17,14 +17,14 @@
 namespace breccia::gui {
 namespace {
 
-constexpr int kLook = 2000;  // ms
+constexpr int kUpdateInterval = 2000;  // ms
 const QString kFirstColumn = "broken joints";
 constexpr int kWidestBox = 300;  // pixels
 
 /// Gives it room for its words. Qt does not work out the least width of a box anew when words are added.
 void fit(QComboBox& box) { box.setMinimumWidth(std::min(kWidestBox, box.sizeHint().width())); }
 
-/// When a study was started, which is what tells those of one case apart.
+/// Start of a study, which distinguishes those of one case.
 QString words_of_study(const QString& folder) {
   static const QRegularExpression started(R"((\d{4})(\d\d)(\d\d)-(\d\d)(\d\d)(\d\d)(-\d+)?-study$)");
   const QString name = QFileInfo(folder).fileName();
@@ -54,7 +54,7 @@ StudyPanel::StudyPanel(const Document& document, const RunQueue& queue, QWidget*
   row->addWidget(chart_, 4);
   connect(&timer_, &QTimer::timeout, this, &StudyPanel::look);
   connect(&reader_, &QFutureWatcher<std::vector<StudyResult>>::finished, this, &StudyPanel::take_results);
-  timer_.start(kLook);
+  timer_.start(kUpdateInterval);
   connect(&document_, &Document::changed, this, [this] {
     if (isVisible()) fill_keys();
   });
@@ -89,7 +89,7 @@ void StudyPanel::make_setup(QVBoxLayout& column) {
     connect(values_[i], &QLineEdit::textChanged, this, &StudyPanel::take_edit);
   }
   start_ = named_button(tr("Add to the queue"), "study_start",
-                        tr("Queue a run of the case, as it is now, for every combination of the values"));
+                        tr("Queue a run of the present case for every combination of the values"));
   words_ = new QLabel;
   words_->setWordWrap(true);
   words_->setObjectName("study_words");
@@ -110,7 +110,7 @@ void StudyPanel::make_results(QVBoxLayout& column) {
   column_ = new QComboBox;
   column_->setObjectName("study_column");
   column_->setAccessibleName(tr("Result"));
-  column_->setToolTip(tr("What is plotted and stands in the last column, with its unit, at the end of each run"));
+  column_->setToolTip(tr("Quantity of the plot and the last column, with its unit, at the end of each run"));
   column_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   column_->setMaximumWidth(kWidestBox);
   export_ = named_button(tr("Export CSV..."), "study_export", tr("All results of all runs as one table"));

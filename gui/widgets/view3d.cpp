@@ -23,7 +23,7 @@ View3D::View3D(QWidget* parent)
       skin_(new QCheckBox(tr("So&lid"))),
       loads_(new QCheckBox(tr("Loads"))),
       explode_(new QSlider(Qt::Horizontal)),
-      look_(new QMenu(tr("&Look from"), this)),
+      look_(new QMenu(tr("&View from"), this)),
       range_(new ColourRangeBox),
       cut_(new CutBar),
       deformation_(new DeformationBox) {
@@ -45,7 +45,7 @@ View3D::View3D(QWidget* parent)
     colour_->addItem(QString::fromStdString(name), static_cast<int>(colouring));
   colour_->setObjectName("colour_by");
   colour_->setAccessibleName(tr("Colour by"));
-  colour_->setToolTip(tr("What the colours mean"));
+  colour_->setToolTip(tr("Quantity of the colours"));
   connect(colour_, qOverload<int>(&QComboBox::currentIndexChanged), this, &View3D::take_colouring);
   connect(colour_, qOverload<int>(&QComboBox::activated), this, [this] { choice().is_chosen = true; });
   make_joints_boxes();
@@ -91,7 +91,7 @@ void View3D::make_joints_boxes() {
   joints_->setObjectName("joints_by");
   joints_->setAccessibleName(tr("Joints by"));
   joints_->setToolTip(
-      tr("What the colours of joints mean; those that hold have no time of failure: grey. Hidden: none is drawn"));
+      tr("Quantity of the colours of joints; intact joints have no time of failure: grey. Hidden: none is drawn"));
   connect(joints_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     scene_.set_joint_colouring(static_cast<JointColouring>(joints_->currentData().toInt()));
     render();
@@ -117,7 +117,7 @@ void View3D::make_boxes() {
   skin_->setObjectName("solid");
   skin_->setChecked(true);
   skin_->setAccessibleName(tr("Solid bodies"));
-  skin_->setToolTip(tr("Draw the bodies solid; otherwise one looks through them at the broken joints"));
+  skin_->setToolTip(tr("Draw the bodies opaque; otherwise they are transparent and show the broken joints"));
   connect(skin_, &QCheckBox::toggled, this, [this](bool on) {
     scene_.show_skin(on);
     render();
@@ -127,7 +127,7 @@ void View3D::make_boxes() {
   loads_->setShortcut(QKeySequence("Ctrl+L"));
   loads_->setAccessibleName(tr("Loads and constraints"));
   loads_->setToolTip(
-      tr("Draw the conditions of the stage in hand: arrows for loads and motions, cones for what is held (Ctrl+L)"));
+      tr("Draw the conditions of the current stage: arrows for loads and motions, cones for constraints (Ctrl+L)"));
   connect(loads_, &QCheckBox::toggled, this, [this](bool on) {
     scene_.show_loads(on);
     render();
@@ -172,10 +172,10 @@ void View3D::make_look_menu() {
 }
 
 void View3D::fill_bar() {
-  auto* look = new QPushButton(tr("Look from"));
+  auto* look = new QPushButton(tr("View from"));
   look->setObjectName("look_from");
-  look->setAccessibleName(tr("Look from"));
-  look->setToolTip(tr("Look along an axis (Ctrl+1 to Ctrl+6) or from a corner (Ctrl+0); axes and scale (Ctrl+7)"));
+  look->setAccessibleName(tr("View from"));
+  look->setToolTip(tr("View along an axis (Ctrl+1 to Ctrl+6) or from a corner (Ctrl+0); axes and scale (Ctrl+7)"));
   look->setMenu(look_);
   auto* fit = new QPushButton(tr("Fit"));
   fit->setObjectName("fit");

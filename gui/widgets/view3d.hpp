@@ -32,7 +32,7 @@ class View3D final : public QWidget {
   void offer_colouring(Colouring colouring);
   /// Another case follows: it has its mesh in the colours of its groups, and ranges of its own.
   void forget_colours();
-  /// From where the model is looked at, each with its key.
+  /// View directions, each with its key.
   [[nodiscard]] QMenu* look_menu() { return look_; }
   [[nodiscard]] QAction* cut_action() { return cut_->action(); }
   /// How displacements are to be drawn, as of Deformation.
@@ -44,7 +44,7 @@ class View3D final : public QWidget {
   /// Seen as glyphs where that is switched on.
   void set_loads(std::vector<Load> loads);
   void set_dark(bool dark);
-  /// Soon, once for all that is asked for meanwhile.
+  /// Soon, once for all requests until then.
   void render();
   void render_now();
   /// What is drawn now.

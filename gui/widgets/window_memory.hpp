@@ -12,7 +12,7 @@ class WindowMemory {
  public:
   explicit WindowMemory(const QString& state_folder);
 
-  /// None: nobody has chosen.
+  /// None: not chosen.
   [[nodiscard]] std::optional<bool> dark() const;
   void set_dark(bool dark);
   /// As of QWidget::saveGeometry and QMainWindow::saveState; empty: not kept.

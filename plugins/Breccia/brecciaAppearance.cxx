@@ -56,7 +56,7 @@ constexpr Appearance kAppearances[] = {
     {"load", "cost over the mean", nullptr},
 };
 
-/// Ranges grow with what frames show as time goes on (vtkSMTransferFunctionManager: GROW_ON_APPLY_AND_TIMESTEP).
+/// Ranges grow with the values of later frames (vtkSMTransferFunctionManager: GROW_ON_APPLY_AND_TIMESTEP).
 constexpr const char kGrowing[] = R"("PVLookupTable": {"AutomaticRescaleRangeMode": 1})";
 
 /// Arrays of kinds: what each value means and its colour.

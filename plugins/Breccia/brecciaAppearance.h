@@ -1,7 +1,7 @@
 #ifndef brecciaAppearance_h
 #define brecciaAppearance_h
 
-/// Tells ParaView how to show the arrays of runs: titles of scalar bars with units, colours, names of modes and states.
+/// Defines how ParaView shows the arrays of runs: titles of scalar bars with units, colours, names of modes and states.
 /// Settings of the lowest priority: what the user has saved for an array holds.
 void brecciaSetAppearance();
 

@@ -2,7 +2,7 @@
 
 What `breccia report` shows of a run's frames: pictures and statistics, made by the plugin's filters. Writes PNG files into
 FOLDER, and figures.json beside them: anew after each part, so that what is done stays when a later part takes too long.
-A part that fails is named in "problems"; the others go on."""
+A part that fails is named in "problems"; the others continue."""
 import argparse
 import json
 import os
@@ -83,7 +83,7 @@ class Drawing:
         self.file, self.times = arguments.run, []
 
     def messages(self):
-        """What ParaView has said since the last call: the last words of each error, once."""
+        """Messages of ParaView since the last call: the last words of each error, once."""
         if not os.path.exists(self.log):
             return []
         with open(self.log, encoding="utf-8", errors="replace") as file:

@@ -25,7 +25,7 @@ enum class Level {
 struct Rule {
   const char* name;  ///< as `check` prints it, in brackets
   Level level;
-  const char* key;  ///< of the case, as in the schema: what to look at first
+  const char* key;  ///< of the case, as in the schema: the one to check first
   bool at_start;    ///< `run` reports it as well, as a warning
   Sentences (*find)(const Subject&);
 };

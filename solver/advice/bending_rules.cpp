@@ -90,8 +90,9 @@ struct Slender {
 }  // namespace
 
 Sentences stiff_bending(const case_::Case& input, const Model& model) {
-  constexpr double kSlenderBeam = 5, kSlenderPlate = 10, kMuch = 0.75;
-  constexpr std::int64_t kFew = 8;  // elements, of a grain: a tetrahedron is as thin by volume over area as a plate
+  constexpr double kSlenderBeam = 5, kSlenderPlate = 10, kAcceptableShare = 0.75;
+  // Elements, of a grain: a tetrahedron is as thin by volume over area as a plate.
+  constexpr std::int64_t kGrainElements = 8;
   if (model.plane) return {};
   Solids solids(model);
   const std::vector<bool> rigid = never_bent(input, solids);
@@ -100,18 +101,19 @@ Sentences stiff_bending(const case_::Case& input, const Model& model) {
     const double size = solids[number].size();
     const bool beam = shape.is_beam(size);
     const double thickness = (beam ? 4 : 2) * shape.volume / shape.area;
-    if (shape.elements < kFew || rigid[number] || size < (beam ? kSlenderBeam : kSlenderPlate) * thickness) continue;
+    if (shape.elements < kGrainElements || rigid[number] || size < (beam ? kSlenderBeam : kSlenderPlate) * thickness)
+      continue;
     const double share = share_of_bending(shape.edge() / thickness);
     Slender& of_group = worst[shape.group];
     if (share < of_group.share) of_group = {share, thickness / shape.edge(), thickness};
   }
   Sentences advice;
   for (const auto& [group, slender] : worst) {
-    if (slender.share > kMuch) continue;
+    if (slender.share > kAcceptableShare) continue;
     advice.push_back(fmt::format(
-        "{} is slender and about {:.2g} elements thick. Linear tetrahedra are too stiff in bending: it bends by about "
-        "{:.0f} % of what it should. Where bending matters, use elements of a {:.0f}th of its thickness ({}) or less: "
-        "about {:.0f} %.",
+        "{} is slender and about {:.2g} elements thick. Linear tetrahedra are too stiff in bending: its deflection is "
+        "about {:.0f} % of the theoretical one. Where bending matters, use elements of a {:.0f}th of its thickness "
+        "({}) or less: about {:.0f} %.",
         model.mesh.volume_groups[at(group)], slender.layers, 100 * slender.share, kFine,
         quantity_text(slender.thickness / kFine, "m"), 100 * share_of_bending(1 / kFine)));
   }

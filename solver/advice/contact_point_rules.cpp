@@ -91,20 +91,20 @@ std::vector<double> face_sizes(const Model& model) {
 }  // namespace
 
 Sentences late_contact(const Model& model) {
-  constexpr double kWorthTelling = 0.01;  // of the edges there
+  constexpr double kReportedShare = 0.01;  // of the edges there
   Sentences advice;
   if (!model.has_contact || !model.contact_everywhere) return advice;
   std::vector<double> late(model.mesh.volume_groups.size(), 0.0);
   for (const Corner& corner : corners_of_surface(model)) {
-    if (corner.group < 0 || !corner.smooth || corner.late < kWorthTelling * corner.edge) continue;
+    if (corner.group < 0 || !corner.smooth || corner.late < kReportedShare * corner.edge) continue;
     late[at(corner.group)] = std::max(late[at(corner.group)], corner.late);
   }
   for (std::size_t g = 0; g < late.size(); ++g) {
     if (!(late[g] > 0) || !has_points(model, static_cast<Index>(g))) continue;
     advice.push_back(
         fmt::format("The surface of {} is curved or has blunt edges, and its contact points lie up to {} behind the "
-                    "corners of its faces: other bodies come so much nearer before they feel it. "
-                    "contact_points.per_face = 4 has points on corners.",
+                    "corners of its faces: contact starts only at this distance. contact_points.per_face = 4 has "
+                    "points on corners.",
                     model.mesh.volume_groups[g], quantity_text(late[g], "m")));
   }
   return advice;

@@ -45,7 +45,7 @@ std::vector<double> contact_lengths(const Model& model) {
   return length;
 }
 
-/// Something is driven while something else is held or driven as well.
+/// A group is driven while another one is constrained or driven as well.
 bool is_pressed(const case_::Case& input) {
   return std::any_of(input.stages.begin(), input.stages.end(), [](const case_::Stage& stage) {
     return std::any_of(stage.constraints.begin(), stage.constraints.end(), [&](const case_::Constraint& driven) {
@@ -104,9 +104,9 @@ Sentences soft_penalty(const case_::Case& input, const Model& model) {
       const double depth = speed * std::sqrt(mass * h / penalty);
       if (depth <= kEdge * h) continue;
       advice.push_back(fmt::format(
-          "The contact penalty of {} between \"{}\" and \"{}\" is too soft for {}: they would enter each other by {}, "
-          "more than an element (about {}), and go on through. A penalty of {} or more stops them within a tenth of "
-          "one.",
+          "The contact penalty of {} between \"{}\" and \"{}\" is too low for {}: the overlap would reach {}, more "
+          "than an element (about {}), and the bodies would pass through each other. A penalty of {} or more limits "
+          "the overlap to a tenth of an element.",
           quantity_text(penalty, "Pa"), names[at(g)], names[other], quantity_text(speed, "m/s"),
           quantity_text(depth, "m"), quantity_text(kEdge * h, "m"),
           quantity_text(mass * h * std::pow(speed / (kShare * kEdge * h), 2), "Pa")));
@@ -152,9 +152,8 @@ Sentences pressed_without_friction(const case_::Case& input, const Model& model)
   for (const case_::Contact& entry : input.contacts) {
     if (entry.friction > 0 || entry.interaction == case_::Interaction::none) continue;
     advice.push_back(fmt::format(
-        "Contact between \"{}\" and \"{}\" (line {}) has no friction: nothing but the unevenness of the meshes holds a "
-        "body sideways that is pressed between wider flat ones; it may slide, and be driven out where they end. A "
-        "friction of 0.05 holds it.",
+        "Contact between \"{}\" and \"{}\" (line {}) has no friction: a body pressed between wider flat ones has no "
+        "lateral support except the unevenness of the meshes and may slide out. A friction of 0.05 prevents it.",
         entry.groups[0], entry.groups[1], entry.origin.line));
   }
   return advice;

@@ -78,7 +78,7 @@ std::string empty_sphere(const Model& model) {
     if ((centre - sphere.centre).norm() <= sphere.radius) return {};
   }
   return fmt::format(
-      "The sphere is around nothing: the whole model begins outside, and what begins outside is not pushed back in. "
+      "The sphere encloses nothing: the whole model is outside at the start, and elements outside are not pushed back. "
       "Raise sphere.radius from {:.4g} to more than {:.4g} m, or move sphere.centre.",
       sphere.radius, furthest);
 }

@@ -67,8 +67,8 @@ Sides sides_of(const Model& model, std::size_t groups) {
   return {};
 }
 
-/// Mean length of the edges of a joint, m; of a plane model as seen along its axis, without those that stand upright:
-/// a crack runs through the thickness at once, whatever that is.
+/// Mean length of the edges of a joint, m; of a plane model as seen along its axis, without those that stand upright: a
+/// crack runs through any thickness at once.
 double edge_of(const Model& model, const JointFace& face) {
   if (!model.plane) return face.size;
   constexpr double kUpright = 1e-6;  // of an edge: round-off of a mesh written with few digits

@@ -5,7 +5,7 @@
 
 #include "model/model.hpp"
 
-/// What can be said of the joints of a pair of groups, which all have one law, before anything moves.
+/// Measures of the joints of a pair of groups, which share one law, of the model at rest.
 namespace breccia {
 
 /// Young's modulus of Lame constants, Pa.

@@ -27,7 +27,7 @@ constexpr double kWorthRefining = 20;
 
 bool beyond_refining(double h, double zone) { return h > kWorthRefining * kWanted * zone; }
 
-/// What depends on the mesh, and what to do: one aim, whatever the elements are.
+/// States the dependence on the mesh and the remedy: the same target size for all element sizes.
 /// @param refinement  to a third of the process zone;  @param larger  they are larger than all of it
 std::string refine(double refinement, bool larger, bool given) {
   const std::string by = fmt::format("Refine by {:.2g}, to a third of that zone,", refinement);
@@ -60,9 +60,9 @@ std::string zone_advice(const std::string& name, double zone, const Edges& edges
   }
   if (beyond_refining(h, zone)) {
     return fmt::format(
-        "{} are far larger than its fracture process zone, which no practicable mesh resolves: how these joints break "
-        "depends on the mesh. It is of no concern where a group was made soft for an excavation, or in a thin soft "
-        "layer; else look at young, tensile_strength and energy_mode_1.",
+        "{} are far larger than its fracture process zone, which no practicable mesh resolves: the failure of these "
+        "joints depends on the mesh. This is acceptable for a group made soft for an excavation and for a thin soft "
+        "layer; otherwise check young, tensile_strength and energy_mode_1.",
         elements);
   }
   const bool larger = h > kClearlyLarger * zone;

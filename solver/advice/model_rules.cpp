@@ -16,7 +16,7 @@
 namespace breccia {
 namespace {
 
-/// Whether anything that the case prescribes acts along an axis, but for what is held.
+/// Whether loads or motions of the case act along an axis, fixed nodes excepted.
 bool acts_along(const case_::Case& input, const Model& model, std::size_t axis) {
   const auto i = static_cast<Eigen::Index>(axis);
   const auto moves = [&](const case_::InitialVelocity& v) {
@@ -105,9 +105,9 @@ std::string slice_without_plane(const case_::Case& input, const Model& model) {
       !is_layer(model.mesh, model.topology, static_cast<int>(axis)))
     return {};
   return fmt::format(
-      "The mesh is one layer of elements across {}, with two free flat sides that carry contact points. If a slice is "
-      "meant, [plane] kind = \"stress\"{} takes them out of contact, and kind = \"strain\" lets nothing move along {} "
-      "as well, as inside a long body.",
+      "The mesh is one layer of elements across {}, with two free flat sides that carry contact points. For a slice, "
+      "[plane] kind = \"stress\"{} excludes them from contact, and kind = \"strain\" also fixes motion along {}, as "
+      "inside a long body.",
       "xyz"[axis], axis == 2 ? "" : fmt::format(", axis = \"{}\",", "xyz"[axis]), "xyz"[axis]);
 }
 
@@ -136,7 +136,7 @@ std::string small_sphere(const Model& model) {
   const SphericalBoundary& sphere = *model.contact.sphere;
   double furthest = 0;
   Index outside = 0, worst = -1;
-  bool around_something = false;  // else unmeant_advice tells
+  bool around_something = false;  // else unmeant_advice reports it
   for (Index e = 0; e < model.mesh.num_elements(); ++e) {
     double distance = 0;
     Vec3 centre = Vec3::Zero();
@@ -150,12 +150,13 @@ std::string small_sphere(const Model& model) {
   }
   if (outside == 0 || !around_something) return {};
   return fmt::format(
-      "The sphere does not hold the model: {} elements begin outside, element {} by {:.3g} m, and what begins "
-      "outside is not pushed back in. Raise sphere.radius from {:.4g} to more than {:.4g} m, or move sphere.centre.",
+      "The sphere does not enclose the model: {} elements are outside at the start, element {} by {:.3g} m, and "
+      "elements outside are not pushed back. Raise sphere.radius from {:.4g} to more than {:.4g} m, or move "
+      "sphere.centre.",
       outside, worst, furthest - sphere.radius, sphere.radius, furthest);
 }
 
-/// A file without a unit whose numbers look like millimetres.
+/// A file without a unit whose numbers appear to be millimetres.
 std::string unit_of_lengths(const case_::Case& input, const Model& model) {
   constexpr double kLarge = 10;  // m; parts that break are drawn in mm or in m
   if (!states_no_unit(geometry_file(input.mesh.file)) || input.mesh.scale != 1) return {};

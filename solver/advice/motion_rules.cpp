@@ -155,9 +155,9 @@ std::string sudden_motion(const case_::Case& input, const Model& model) {
   if (worst.entry == nullptr) return {};
   const std::string ramp = worst.start > 0 ? fmt::format("start = {:g}, ", worst.start) : "";
   return fmt::format(
-      "{} begins with a jump in speed of {}: it strikes, and its wave, of a stress rho c v of about {}, is {:.2g} % of "
-      "the tensile strength of the joints of {}. If a slow load is meant, let the speed grow over {} or more: velocity "
-      "= {{ {} = {{ ramp = {{ {}end = ..., to = {:g} }} }} }}.",
+      "{} begins with a jump in speed of {}: its stress wave rho c v of about {} is {:.2g} % of the tensile strength "
+      "of the joints of {}. For a slow load, use a ramp over {} or more: velocity = {{ {} = {{ ramp = {{ {}end = ..., "
+      "to = {:g} }} }} }}.",
       name_of(*worst.entry), quantity_text(worst.speed, "m/s"), quantity_text(worst.stress, "Pa"), 100 * worst.share,
       worst.joints, quantity_text(kSlow * worst.crossing, "s"), "xyz"[worst.axis], ramp, worst.velocity);
 }

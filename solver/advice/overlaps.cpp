@@ -74,7 +74,7 @@ Sentences overlapping_bodies(const case_::Case& input, const Model& model, const
   for (const GroupOverlap& groups : overlaps) {
     const BodyOverlap& o = groups.deepest;
     if (overlap_entry(input, model, o).initial_overlap != case_::InitialOverlap::refuse) continue;
-    advice.push_back(fmt::format("A run ends with an error, since {} and {} overlap. What helps: {}.",
+    advice.push_back(fmt::format("A run ends with an error, since {} and {} overlap. Remedy: {}.",
                                  name_of_body(model, o.group, o.body), name_of_body(model, o.other_group, o.other),
                                  overlap_remedy(o)));
   }

@@ -23,8 +23,7 @@ void check_friction(Sentences& advice, const case_::Origin& origin, double frict
   if (!(friction > kLargestFriction)) return;
   const double angle = friction * std::numbers::pi / 180;
   std::string meant;
-  if (friction < 90)
-    meant = fmt::format(" If {:g} degrees are meant, write {:.3g}, its tangent.", friction, std::tan(angle));
+  if (friction < 90) meant = fmt::format(" For {:g} degrees, write {:.3g}, its tangent.", friction, std::tan(angle));
   advice.push_back(fmt::format("{}.friction (line {}) is a coefficient: {:g} is far above that of any surfaces.{}",
                                origin.key, origin.line, friction, meant));
 }
@@ -144,7 +143,7 @@ Sentences not_repeated_in_stage(const case_::Case& input) {
     const std::string words = left_out(input.stages[s - 1], input.stages[s]);
     if (words.empty()) continue;
     advice.push_back(fmt::format(
-        "Stage {} lacks the {} of the previous stage: stages do not inherit. Repeat what is to continue in stage {} "
+        "Stage {} lacks the {} of the previous stage: stages do not inherit. Repeat the entries to keep in stage {} "
         "(line {}).",
         s, words, s, input.stages[s].origin.line));
   }
@@ -155,9 +154,9 @@ std::string absorbing_under_gravity(const case_::Case& input) {
   if (input.stages.empty() || input.start) return {};
   const case_::Stage& first = input.stages.front();
   if (first.absorbing.empty() || !falls(first)) return {};
-  return "Stage 0 has gravity and an absorbing surface, and holds nothing against gravity: what stands on it sinks at "
-         "a steady speed, as the surface carries only what it carried when it began to absorb. Let the model come to "
-         "rest on a fixed base in a stage before.";
+  return "Stage 0 has gravity and an absorbing surface, and no support against gravity: bodies on it sink at a steady "
+         "speed, since the surface keeps only the forces of the time when it began to absorb. Let the model come to "
+         "rest on a fixed base in a previous stage.";
 }
 
 }  // namespace breccia

@@ -11,8 +11,8 @@
 #include "model/constraint_conflicts.hpp"
 #include "model/model.hpp"
 
-/// The rules of `check`, one function each; advice/rules.cpp is the table of them. Each gives the sentences of what it
-/// finds, or nothing. Models are of the whole mesh; a bare one will do where nothing else is said.
+/// The rules of `check`, one function each; advice/rules.cpp is the table of them. Each returns its sentences, or none.
+/// Models are of the whole mesh; a bare one is sufficient unless stated otherwise.
 namespace breccia {
 
 // overlaps.cpp
@@ -36,7 +36,7 @@ namespace breccia {
 [[nodiscard]] std::string fragments_without_contact(const case_::Case& input, const Model& model);
 /// A sphere that does not hold all of the model.
 [[nodiscard]] std::string small_sphere(const Model& model);
-/// A file without a unit whose numbers look like millimetres.
+/// A file without a unit whose numbers appear to be millimetres.
 [[nodiscard]] std::string unit_of_lengths(const case_::Case& input, const Model& model);
 /// A slice without [plane], thin beside what it measures along both other axes.
 [[nodiscard]] std::string slice_without_plane(const case_::Case& input, const Model& model);
@@ -52,7 +52,7 @@ namespace breccia {
 [[nodiscard]] std::string empty_sphere(const Model& model);
 /// Laws of interfaces that are nowhere.
 [[nodiscard]] Sentences unused_joint_law(const case_::Case& input, const Model& model);
-/// Initial velocities along axes that are held.
+/// Initial velocities along constrained axes.
 [[nodiscard]] Sentences lost_velocity(const case_::Case& input);
 /// Loads and absorbing boundaries on surfaces whose motion is prescribed.
 [[nodiscard]] Sentences load_on_held_nodes(const case_::Case& input, const Model& model);

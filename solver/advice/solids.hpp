@@ -17,7 +17,7 @@ struct Solid {
   double speed = std::numeric_limits<double>::max();  ///< m/s, of waves, the slowest
   double edge = std::numeric_limits<double>::max();   ///< m, H of contact
   bool held = false;                                  ///< somewhere, in the stage
-  bool whole = false;                                 ///< all of it is held along all axes
+  bool whole = false;                                 ///< all of it is constrained along all axes
   bool pressed = false;                               ///< a pressure or traction of the stage acts on it
 
   [[nodiscard]] bool exists() const { return speed < std::numeric_limits<double>::max(); }
@@ -50,8 +50,7 @@ class Solids {
   /// The largest crossing time of a wave, s.
   [[nodiscard]] double slowest_crossing() const;
 
-  /// The largest crossing time of a wave among solids that are held at some place, lie on others or are pressed on, s;
-  /// 0: none.
+  /// Largest wave transit time of the solids that are constrained, supported or pressed, s; 0: none.
   [[nodiscard]] double slowest_at_rest() const;
 
   /// Whether two solids lie on each other: there is contact and their boxes touch.

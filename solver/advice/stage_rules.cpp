@@ -26,7 +26,7 @@ constexpr double kViscosity = 0.005;
 /// to 5 % too little.
 constexpr double kSlidingViscosity = 0.05;
 /// Share of it that is enough: the reported value is rounded.
-constexpr double kAsTold = 0.95;
+constexpr double kSufficientShare = 0.95;
 
 /// Whether anything takes energy out of vibrations in a stage.
 /// @param viscosity  Pa s, of a material, that is enough: more than this
@@ -65,14 +65,14 @@ Vec3 sum_at(const std::vector<Load>& loads, std::string Load::*name, const std::
 
 /// Loads that a stage begins with, in words; empty: none that comes suddenly.
 std::string sudden_loads(const case_::Stage& stage, const case_::Stage* before, double start) {
-  constexpr double kMuch = 0.1;  // of the load, in one step
+  constexpr double kLargeJump = 0.1;  // of the load, in one step
   const Vec3 last = before != nullptr ? gravity_at(*before, start) : Vec3::Zero(), first = gravity_at(stage, start);
   std::string loads;
-  if ((first - last).norm() > kMuch * std::max(first.norm(), gravity_at(stage, stage.end).norm()))
+  if ((first - last).norm() > kLargeJump * std::max(first.norm(), gravity_at(stage, stage.end).norm()))
     loads = fmt::format("gravity ({} at once)", quantity_text((first - last).norm(), "m/s2"));
   for (const case_::Pressure& p : stage.pressures) {
     const double jump = pressure_at(&stage, p.surface, start) - pressure_at(before, p.surface, start);
-    if (std::abs(jump) <= kMuch * std::max(std::abs(p.value(start)), std::abs(p.value(stage.end)))) continue;
+    if (std::abs(jump) <= kLargeJump * std::max(std::abs(p.value(start)), std::abs(p.value(stage.end)))) continue;
     loads += fmt::format("{}the pressure on \"{}\" ({} at once)", loads.empty() ? "" : " and ", p.surface,
                          quantity_text(jump, "Pa"));
   }
@@ -82,7 +82,7 @@ std::string sudden_loads(const case_::Stage& stage, const case_::Stage* before, 
       const Vec3 now = sum_at(stage.*member, name, load.*name, start);
       const Vec3 then = before != nullptr ? sum_at(before->*member, name, load.*name, start) : Vec3(Vec3::Zero());
       const double jump = (now - then).norm();
-      if (jump <= kMuch * std::max(value_at(load.value, start).norm(), value_at(load.value, stage.end).norm()))
+      if (jump <= kLargeJump * std::max(value_at(load.value, start).norm(), value_at(load.value, stage.end).norm()))
         continue;
       loads += fmt::format("{}the {} on \"{}\" ({} at once)", loads.empty() ? "" : " and ", what, load.*name,
                            quantity_text(jump, unit));
@@ -173,13 +173,12 @@ Sentences sudden_load(const case_::Case& input, const Model& model) {
     const double crossing = loads.empty() ? 0.0 : solids.slowest_at_rest();
     if (crossing > 0 && stage.end - start > kStatic * crossing) {
       advice.push_back(fmt::format(
-          "Stage {} begins with {}, on bodies that are held, lie on others or are pressed on and that nothing damps: "
-          "they vibrate with up to twice the static stress. If a slow load is meant, let it grow over {} or more, {{ "
-          "ramp = {{ start = {:g}, end = ..., to = ... }} }}, and damp: a "
-          "material.viscosity of {}, or stage.local_damping{}.",
+          "Stage {} begins with {}, on bodies that are constrained, supported or pressed and have no damping: they "
+          "vibrate with up to twice the static stress. For a slow load use a ramp over {} or more, {{ ramp = {{ start "
+          "= {:g}, end = ..., to = ... }} }}, and damp: a material.viscosity of {}, or stage.local_damping{}.",
           words_of(input, stage), loads, quantity_text(kSlow * crossing, "s"), start,
           quantity_text(kViscosity * crossing * softest(model), "Pa s"),
-          model.has_contact ? "; contact.damping_ratio = 0.05 damps what bounces" : ""));
+          model.has_contact ? "; contact.damping_ratio = 0.05 damps bouncing" : ""));
     }
     before = &stage;
     start = stage.end;
@@ -195,11 +194,11 @@ Sentences undamped_friction(const case_::Case& input, const Model& model) {
   const double viscosity = kSlidingViscosity * entries.largest * Solids(model).slowest_crossing() * softest(model);
   double start = 0;
   for (const case_::Stage& stage : input.stages) {
-    if (!damped(input, stage, kAsTold * viscosity) && is_loaded(stage, start)) {
+    if (!damped(input, stage, kSufficientShare * viscosity) && is_loaded(stage, start)) {
       return {fmt::format(
-          "{} stage {}, and there is friction (coefficients: {}) with which elastic bodies that slide vibrate and rub "
-          "too little; contact.friction_delay prevents that in what slides steadily, up to a coefficient of 0.6, not "
-          "in what is set down, dragged along or spun at once, and joints have no delay. If anything slides, damp: a "
+          "{} stage {}, and there is friction (coefficients: {}), with which sliding elastic bodies vibrate and the "
+          "mean friction is too low; contact.friction_delay prevents that for steady sliding, up to a coefficient of "
+          "0.6, not after sudden motions, and joints have no delay. For sliding bodies add damping: a "
           "material.viscosity of {}.",
           damped(input, stage) ? "Viscosity damps little in" : "Nothing damps", words_of(input, stage), entries.words,
           quantity_text(viscosity, "Pa s"))};
@@ -218,10 +217,9 @@ std::string damped_sliding(const case_::Case& input, const Model& model) {
   if (!(last.local_damping > 0) || (model.mesh.num_bodies < 2 && !breaks)) return {};
   if (!rubs(input.contacts) && !(breaks && rubs(input.joints))) return {};
   return fmt::format(
-      "Stage {}, the last one, has a local_damping of {:g}: with friction it slows down or stops what slides, even "
-      "with "
-      "0.02, and falling bodies fall with {:g} of their acceleration. To judge what moves, leave it out there and damp "
-      "with material.viscosity.",
+      "Stage {}, the last one, has a local_damping of {:g}: with friction it slows down or stops sliding bodies, even "
+      "with 0.02, and falling bodies accelerate by {:g} of gravity. Where motion matters, omit it there and damp with "
+      "material.viscosity.",
       words_of(input, last), last.local_damping, 1 - last.local_damping);
 }
 
@@ -238,9 +236,9 @@ std::string damped_reactions(const case_::Case& input) {
     });
     if (!(stage.local_damping > 0) || !drives || std::none_of(entries.begin(), entries.end(), recorded)) continue;
     return fmt::format(
-        "Stage {} has a local_damping of {:g} and drives what output.gauges record: it changes the reactions wherever "
-        "anything accelerates or breaks (to accelerate a body takes {:.3g} times its force). To measure forces, leave "
-        "it out there and damp with material.viscosity; compare the reactions of both ends.",
+        "Stage {} has a local_damping of {:g} and drives what output.gauges record: it changes the reactions during "
+        "acceleration and fracture (acceleration requires {:.3g} times the force). To measure forces, omit it there "
+        "and damp with material.viscosity; compare the reactions of both ends.",
         words_of(input, stage), stage.local_damping, 1 / (1 - stage.local_damping));
   }
   return {};
@@ -251,8 +249,8 @@ Sentences overruled_constraints(const std::vector<ConstraintConflict>& conflicts
   for (const ConstraintConflict& c : conflicts) {
     if (c.whole) continue;
     advice.push_back(fmt::format(
-        "{} overrules {} along {} on {} of its {} nodes, which both name and which cannot follow both. If that is not "
-        "meant, leave {} out of one of them.",
+        "{} overrules {} along {} on {} of its {} nodes, which are in both entries. Otherwise remove {} from one of "
+        "them.",
         name_of(*c.later), name_of(*c.earlier), "xyz"[c.axis], c.shared, c.of_earlier, "xyz"[c.axis]));
   }
   return advice;

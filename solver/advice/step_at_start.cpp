@@ -10,8 +10,8 @@
 namespace breccia {
 namespace {
 
-/// Steps between two looks at the limit, as StageSteps takes them.
-constexpr double kLook = 100;
+/// Steps between two evaluations of the limit, as in StageSteps.
+constexpr double kStepsAhead = 100;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ StepAtStart::StepAtStart(const case_::Case& input, const Model& model)
     : input_(input), model_(model), time_step_(model), domain_(model, search_params(input, model)) {
   for (const InitialVelocity& initial : initial_velocities(input, model)) add_velocity(domain_, initial);
   if (!input.stages.empty()) loads_ = stage_loads(input.stages.front(), model);
-  parts_ = step_parts(Communicator(), time_step_, state(domain_.state.nodes.velocity), kLook * input.time.safety);
+  parts_ = step_parts(Communicator(), time_step_, state(domain_.state.nodes.velocity), kStepsAhead * input.time.safety);
   now_ = step_with(parts_.contacts);
 }
 
@@ -57,7 +57,7 @@ StableStep StepAtStart::broken() const {
   clusters.break_faces(faces, changed);
   StepState state = this->state(domain_.state.nodes.velocity);
   state.clusters = &clusters;
-  const StepParts parts = step_parts(Communicator(), time_step_, state, kLook * input_.time.safety);
+  const StepParts parts = step_parts(Communicator(), time_step_, state, kStepsAhead * input_.time.safety);
   return stable_step(model_now(), parts.shares, parts.most, parts.contacts, parts.open);
 }
 

@@ -33,7 +33,7 @@ class StepAtStart {
   /// s, as it is now but for the viscosity.
   [[nodiscard]] double step_without_viscosity() const;
 
-  /// With every joint of breakable groups gone and its faces meeting.
+  /// With all joints of breakable groups broken and their faces in contact.
   [[nodiscard]] StableStep broken() const;
 
  private:

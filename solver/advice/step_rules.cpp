@@ -14,7 +14,7 @@ namespace breccia {
 namespace {
 
 /// Factors by which contact shortens the step: from the first on it is reported; at the second a penalty is harmless.
-constexpr double kWorthTelling = 1.5, kHardly = 1.1;
+constexpr double kReportedFactor = 1.5, kHarmlessFactor = 1.1;
 
 /// Factor of the penalties at which contact hardly shortens the step.
 double harmless_factor(const StepAtStart& start, const std::vector<ContactShare>& contacts, double wanted) {
@@ -34,8 +34,8 @@ double harmless_factor(const StepAtStart& start, const std::vector<ContactShare>
 std::string contact_advice(const Model& model, const StepAtStart& start, const std::vector<ContactShare>& contacts,
                            const std::string& when) {
   const StableStep step = start.step_with(contacts);
-  if (step.limit != StepLimit::contact || step.joint_step < kWorthTelling * step.step) return {};
-  const double factor = harmless_factor(start, contacts, step.joint_step / kHardly);
+  if (step.limit != StepLimit::contact || step.joint_step < kReportedFactor * step.step) return {};
+  const double factor = harmless_factor(start, contacts, step.joint_step / kHarmlessFactor);
   const auto& slot_of = model.local.slot_of_element;
   const Index slot = slot_of[at(static_cast<Index>(step.element))];
   const Index group = model.local.block_group[at(slot / kLanes)], against = contacts[at(slot)].against;
@@ -71,7 +71,7 @@ std::string contact_damping_advice(const case_::Case& input, const Model& model,
   if (std::none_of(laws.begin(), laws.end(), [](const ContactLaw& law) { return law.damping > 0; })) return {};
   constexpr double kShare = 0.1;
   const double without = step_with_damping(input, model, 0.0);
-  if (without < kWorthTelling * met) return {};
+  if (without < kReportedFactor * met) return {};
   return fmt::format(
       "contact.damping_ratio makes the step {:.2g} times shorter where bodies meet; a tenth of it would make it {:.2g} "
       "times shorter. 0.02 is enough for a block that is set down on a slope at once.",
@@ -91,10 +91,10 @@ std::string step_of_contact(const case_::Case& input, const Model& model, const 
 /// A viscosity that costs much of the step. With xi the damping of the highest vibrations, as a share of the critical
 /// one, the step is 1/f of that without, f = xi + sqrt(1 + xi^2); xi is proportional to the viscosity.
 std::string step_of_viscosity(const Model& model, const StepAtStart& start) {
-  constexpr double kMuch = 2, kLittle = 1.2;
+  constexpr double kLargeFactor = 2, kTargetFactor = 1.2;
   const auto share_of = [](double factor) { return 0.5 * (factor - 1 / factor); };
   const double factor = start.step_without_viscosity() / start.now().step;
-  if (!(factor > kMuch)) return {};
+  if (!(factor > kLargeFactor)) return {};
   std::size_t group = 0;
   for (std::size_t g = 1; g < model.elastic.size(); ++g) {
     if (model.elastic[g].viscosity > model.elastic[group].viscosity) group = g;
@@ -104,7 +104,7 @@ std::string step_of_viscosity(const Model& model, const StepAtStart& start) {
       "Viscosity makes the step {:.2g} times shorter (material.viscosity of {}: {}); {} would make it {:.2g} times "
       "shorter.",
       factor, model.mesh.volume_groups[group], quantity_text(viscosity, "Pa s"),
-      quantity_text(viscosity * share_of(kLittle) / share_of(factor), "Pa s"), kLittle);
+      quantity_text(viscosity * share_of(kTargetFactor) / share_of(factor), "Pa s"), kTargetFactor);
 }
 
 std::string step_too_long(const case_::Case& input, const StepAtStart& start) {

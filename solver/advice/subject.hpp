@@ -12,7 +12,7 @@
 
 namespace breccia {
 
-/// What the rules look at. What several of them need is made once, when it is first asked for.
+/// Input of the rules. Data that several rules need are computed once, at the first request.
 class Subject {
  public:
   /// @param model  of the whole mesh; both stay

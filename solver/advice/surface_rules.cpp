@@ -58,8 +58,8 @@ Sentences load_within_the_model(const case_::Case& input, const Model& model) {
       const Faces faces = faces_of(model, surface);
       if (faces.free == faces.all()) continue;
       advice.push_back(fmt::format(
-          "{} slows down what is within the model: {} of the {} faces of \"{}\" have elements on both sides. "
-          "A boundary that absorbs waves is a free surface.",
+          "{} damps the inside of the model: {} of the {} faces of \"{}\" have elements on both sides. An absorbing "
+          "boundary has to be a free surface.",
           words_of(stage.origin, ".absorbing"), faces.all() - faces.free, faces.all(), surface));
     }
   }

@@ -65,16 +65,16 @@ std::map<Groups, Touch> touches_of(const case_::Case& input, const Mesh& mesh, c
 }
 
 std::string remedy(const case_::Case& input, const std::string& group, bool of_one_volume) {
-  if (of_one_volume) return "the mesh has the nodes there twice: mesh.merge_nodes joins them, if no crack is meant.";
+  if (of_one_volume) return "the mesh has duplicate nodes there: mesh.merge_nodes joins them, unless it is a crack.";
   if (input.mesh.glue)
     return "the mesh has their interface twice: use Coherence or BooleanFragments in the geometry, or "
            "mesh.merge_nodes.";
   const case_::Contact* contact = contact_entry(input, group, group);
   return contact != nullptr && contact->interaction == case_::Interaction::contact
-             ? "mesh.glue = true makes them one solid. As they are, like stones without mortar, contact alone keeps "
-               "them apart."
-             : "mesh.glue = true makes them one solid. As they are nothing keeps them apart: that takes a [[contact]] "
-               "of the group with itself.";
+             ? "mesh.glue = true makes them one solid. Without it, like stones without mortar, they interact by "
+               "contact alone."
+             : "mesh.glue = true makes them one solid. Without it they pass through each other, unless there is a "
+               "[[contact]] of the group with itself.";
 }
 
 /// What an initial velocity does differently at different places of a body, or for different bodies.

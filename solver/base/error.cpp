@@ -8,7 +8,7 @@ namespace breccia {
 namespace {
 
 /// More lines than these hide the first ones, which are the ones to mend.
-constexpr std::size_t kProblemsTold = 50;
+constexpr std::size_t kProblemsShown = 50;
 
 }  // namespace
 
@@ -27,11 +27,12 @@ std::string Problem::text() const {
 }
 
 InputError::InputError(std::vector<Problem> problems) : problems_(std::move(problems)) {
-  for (std::size_t i = 0; i < problems_.size() && i < kProblemsTold; ++i) {
+  for (std::size_t i = 0; i < problems_.size() && i < kProblemsShown; ++i) {
     if (!text_.empty()) text_ += '\n';
     text_ += problems_[i].text();
   }
-  if (problems_.size() > kProblemsTold) text_ += "\nand " + std::to_string(problems_.size() - kProblemsTold) + " more";
+  if (problems_.size() > kProblemsShown)
+    text_ += "\nand " + std::to_string(problems_.size() - kProblemsShown) + " more";
 }
 
 InputError::InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}
@@ -41,6 +42,14 @@ void demand_failed(const char* condition, const char* file, int line, const std:
                       condition + " does not hold" + (detail.empty() ? "" : " (" + detail + ")"));
 }
 
-Problem out_of_memory() { return {"", 0, "", "out of memory; `breccia check` tells how much a case needs", "", ""}; }
+Problem out_of_memory() {
+  return {"",
+          0,
+          "",
+          "out of memory; `breccia check` reports the memory that a case "
+          "needs",
+          "",
+          ""};
+}
 
 }  // namespace breccia

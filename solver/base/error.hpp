@@ -23,10 +23,10 @@ struct Problem {
   [[nodiscard]] std::string text() const;
 };
 
-/// Problems of one kind that are named of one file or mesh; more of them help nobody.
+/// Largest number of problems of one kind reported for one file or mesh.
 inline constexpr std::size_t kProblemsNamed = 10;
 
-/// What a std::bad_alloc says to the user.
+/// Message for a std::bad_alloc.
 [[nodiscard]] Problem out_of_memory();
 
 /// Case or mesh cannot be run. Carries every problem found, not only the first. Exit code 2.

@@ -7,9 +7,9 @@
 
 namespace breccia {
 
-/// Allocator of 64-byte aligned storage: a block of eight doubles is one cache line. Large arrays are asked for in huge
-/// pages, as the sweep goes through ten of them at once and jumps to neighbours, more than the processor's table of
-/// small pages holds; smaller ones are not, since what a huge page does not use is lost.
+/// Allocator of 64-byte aligned storage: a block of eight doubles is one cache line. Large arrays request huge pages,
+/// since the sweep reads ten of them at once and jumps to neighbours, beyond the capacity of the processor's table of
+/// small pages; smaller arrays do not, as the unused part of a huge page is lost.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;

@@ -38,7 +38,7 @@ inline constexpr const char* kGeometryFiles =
 /// What to do about a file of a known kind that is not read, by the end of its name; empty: nothing is known.
 [[nodiscard]] std::string remedy_for(const std::filesystem::path& file);
 
-/// A file of lengths that are nowhere said to be millimetres or metres.
+/// A file that does not state the unit of its lengths.
 [[nodiscard]] inline bool states_no_unit(GeometryFile kind) {
   return kind != GeometryFile::script && kind != GeometryFile::step && kind != GeometryFile::mesh &&
          kind != GeometryFile::unknown;

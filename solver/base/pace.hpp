@@ -5,7 +5,7 @@
 
 namespace breccia {
 
-/// Says "now" at most once an interval of wall time, and at first.
+/// Limits an action to one execution per interval of wall time; the first is due at once.
 class Pace {
  public:
   explicit Pace(std::chrono::milliseconds interval) : interval_(interval) {}

@@ -5,7 +5,7 @@
 namespace breccia {
 
 /// A scalar function of time: f(t) = constant + linear t + sum_k amplitude_k sin(2 pi frequency_k t + phase_k) +
-/// table(t). The table is piecewise linear, held constant before its first and after its last point. SI units.
+/// table(t). The table is piecewise linear, constant before its first and after its last point. SI units.
 struct TimeFunction {
   struct Sine {
     double amplitude = 0;

@@ -12,8 +12,8 @@
 #include "base/types.hpp"
 #include "case/bulk_laws.hpp"
 
-/// A checked case as plain data: what the user asked for, in SI units, every default filled in. Keys of the case file
-/// stand in comments; case/schema.hpp is their one table (unit, default, range, help).
+/// A checked case as plain data: the user's settings in SI units, with all defaults. Keys of the case file stand in
+/// comments; case/schema.hpp is their one table (unit, default, range, help).
 namespace breccia::case_ {
 
 inline constexpr const char* every_group = "*";  ///< in [[material]], [[joint]] and [[contact]]
@@ -24,12 +24,12 @@ struct KeyPlace {
   int line = 0;
 };
 
-/// Where an entry and its keys were written, to name them in a message found later (a group absent from the mesh, say).
+/// Place of an entry and its keys in the file, for messages of later checks (such as a group absent from the mesh).
 struct Origin {
   int line = 0;
   std::string key;
   std::map<std::string, KeyPlace> keys{};  ///< "group", "displacement.x"
-  /// Cases are equal when they ask for the same, wherever it was written.
+  /// Cases are equal if their settings are, regardless of their places in the file.
   friend bool operator==(const Origin&, const Origin&) { return true; }
 };
 
@@ -74,7 +74,7 @@ struct Raster {
 
 /// [mesh]
 struct MeshSource {
-  std::filesystem::path file;                ///< of base/geometry_file.hpp, absolute; empty when a raster is asked for
+  std::filesystem::path file;                ///< of base/geometry_file.hpp, absolute; empty for a raster
   std::map<std::string, double> parameters;  ///< handed to a .geo (DefineConstant) as they are
   std::optional<Raster> raster;
   double scale = 1.0;           ///< file units to m
@@ -82,9 +82,9 @@ struct MeshSource {
   bool glue = false;            ///< conforming interfaces between volumes are glued
   double merge_nodes = 0;       ///< m, nodes of one solid that are no further apart become one; 0: none
   bool repair_inverted = true;  ///< swap two corners of negative elements; false refuses them
-  double time_limit = 0;        ///< s, wall, for reading a file; 0: by what asks for it
+  double time_limit = 0;        ///< s, wall, for reading a file; 0: the default of the command
   double memory_limit = 0.8;    ///< share of this machine's memory, for reading a file
-  bool trust = false;           ///< asked for on the command line alone: a script may run programs and write files
+  bool trust = false;           ///< set on the command line only: a script may run programs and write files
   Origin origin;
   friend bool operator==(const MeshSource&, const MeshSource&) = default;
 };
@@ -100,7 +100,7 @@ struct Plane {
   friend bool operator==(const Plane&, const Plane&) = default;
 };
 
-/// [start]: the run goes on from the state of another one, under this case.
+/// [start]: the run continues from the state of another one, under this case.
 struct Start {
   std::filesystem::path from;  ///< folder of the run, or one of its checkpoints; absolute
   double at = 0;               ///< s, time of the state; 0: of the last one
@@ -260,7 +260,7 @@ struct Stage {
   std::vector<Pressure> pressures;
   std::vector<Traction> tractions;
   std::vector<Force> forces;
-  std::vector<std::string> absorbing;        ///< surfaces behind which the material goes on
+  std::vector<std::string> absorbing;        ///< absorbing (viscous) surfaces
   double mass_damping = 0;                   ///< 1/s, alpha of f = -alpha m v
   double local_damping = 0;                  ///< 0..1, share of the unbalanced force, against the velocity
   std::vector<std::string> broken_surfaces;  ///< surfaces whose joints are broken when the stage starts
@@ -274,7 +274,7 @@ struct TimeControl {
   double safety = 0.8;              ///< share of the stable step
   std::int64_t max_steps = 0;       ///< 0: no limit
   double residual_limit = 0.05;     ///< energy residual over the largest term that stops the run
-  double energy_gain_limit = 0.01;  ///< energy held beyond what was put in over the largest term that stops the run
+  double energy_gain_limit = 0.01;  ///< energy gain over the largest term at which the run ends
   friend bool operator==(const TimeControl&, const TimeControl&) = default;
 };
 
@@ -299,13 +299,13 @@ struct Domains {
   Exchange exchange = Exchange::non_blocking;
   bool rebalance = true;  ///< divide anew when ranks wait for each other
   double margin = 1;      ///< of the proxies, in mean longest edges of the elements
-  double patience = 300;  ///< s, wall, that a rank waits for others before it says so; twice as long: the run ends
+  double patience = 300;  ///< s, wall, that a rank waits for others before a warning; after twice as long the run ends
   Origin origin;
   friend bool operator==(const Domains&, const Domains&) = default;
 };
 
-/// [checkpoint]: when the whole state is written so that the run can go on from there. Beside these times it is at the
-/// end of every stage and of the run, and on request.
+/// [checkpoint]: when the whole state is written so that the run can be resumed. It is also written at the end of every
+/// stage and of the run, and on request.
 struct Checkpointing {
   std::int64_t steps = 0;      ///< between two; 0: not by steps
   double interval = 0;         ///< s, simulated; 0: not by simulated time
@@ -350,7 +350,7 @@ struct Probe {
   friend bool operator==(const Probe&, const Probe&) = default;
 };
 
-/// [[insitu.pipeline]]: done with the state while the run goes on, whenever a trigger says so.
+/// [[insitu.pipeline]]: processes the state during the run, at each of its triggers.
 struct Pipeline {
   std::string name;               ///< one of the adaptor's own, or a script: an absolute path
   std::int64_t every_steps = 0;   ///< 0: not by steps, and so on
@@ -358,8 +358,8 @@ struct Pipeline {
   double every_wall = 0;          ///< s
   std::int64_t every_broken = 0;  ///< joints
   bool first_break = false;
-  bool strict = false;     ///< whatever it costs
-  std::int64_t least = 0;  ///< executions over the whole run, whatever they cost
+  bool strict = false;     ///< regardless of the cost
+  std::int64_t least = 0;  ///< executions over the whole run, regardless of the cost
   std::map<std::string, Setting> parameters;
   std::optional<Region> region;
   std::vector<std::string> fields;  ///< empty: all

@@ -145,8 +145,7 @@ std::string explain_all(bool experts) {
       "Keys of a case file (TOML): name, default, meaning [SI unit]. Numbers are SI; texts may carry a unit, "
       "\"26.6 GPa\".\n" +
       wrapped(units_help(), "") +
-      "`breccia explain KEY` tells more about one, and what a word of the field "
-      "is called here: `breccia explain notch`.\n\n";
+      "`breccia explain KEY` describes one key; `breccia explain notch` finds the keys for a term of the field.\n\n";
   out += lines_of(nullptr, experts);
   std::vector<std::string> others;
   for (const Key& key : schema()) {

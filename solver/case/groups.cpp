@@ -41,15 +41,14 @@ class GroupChecker {
     check(origin, name, group, all_, "volume, surface, curve or point group");
     if (has(of_elements_, group) && has(surfaces_, group))
       add(problem_at(case_, origin, name,
-                     "a volume group and a surface group of the mesh have this name: which is meant is not clear",
+                     "this name is ambiguous: a volume group and a surface group of the mesh have it",
                      "groups with different names", group));
   }
   void gauge(const Origin& origin, const std::string& name, std::int64_t num_bodies) {
     const std::int64_t body = numbered_body(name);
     const bool is_group = has(all_, name);
     if (is_group && 0 <= body && body < num_bodies) {
-      add(problem_at(case_, origin, "gauges",
-                     "a group of the mesh has the name by which a gauge calls a body: which is meant is not clear",
+      add(problem_at(case_, origin, "gauges", "this name is ambiguous: a group of the mesh and a body have it",
                      "another name for the group, or another gauge", name));
     } else if (body < 0 || is_group) {
       any(origin, "gauges", name);
@@ -70,7 +69,7 @@ class GroupChecker {
     if (has(present, group)) return;
     const std::string list = present.empty() ? "the mesh has none" : nearest_words(group, present);
     const std::string what = has(nodes_, group)
-                                 ? "this is a curve or point of the mesh, where a " + kind + " is asked for"
+                                 ? "this is a curve or point of the mesh, where a " + kind + " is required"
                                  : "the mesh has no " + kind + " \"" + group + "\"";
     add(problem_at(case_, origin, name, what, list, group));
   }

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-/// The arrays of the in-situ channels, by name: what insitu.pipeline.fields and insitu.live.fields may ask for. Those
-/// of the history depend on the case.
+/// The arrays of the in-situ channels, by name: the choices of insitu.pipeline.fields and insitu.live.fields. Those of
+/// the history depend on the case.
 namespace breccia::case_ {
 
 /// Of all channels but the history, as choices of a row of the table of keys.

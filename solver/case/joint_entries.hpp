@@ -6,7 +6,7 @@
 
 namespace breccia::case_ {
 
-/// What a case says of the joints between two groups, or inside one.
+/// Entry of a case for the joints between two groups, or inside one.
 struct JointEntry {
   const Joint* ruling = nullptr;  ///< of those that fit the first that names most groups; null: none fits
   const Joint* tied = nullptr;    ///< another one that names as many; null: there is none

@@ -7,7 +7,7 @@
 
 namespace breccia::case_ {
 
-/// Where ParaView listens unless the user says otherwise.
+/// Default address at which ParaView listens.
 inline constexpr const char* live_address = "localhost:22222";
 
 /// "host:port" or "port", an IPv6 host in brackets; nothing if it is neither.

@@ -14,7 +14,7 @@ bool same_letter(char a, char b) {
 /// @param same  whether two letters are equal
 template <class Same>
 std::size_t alignment_distance(std::string_view a, std::string_view b, Same same) {
-  // Three rows of the table are enough: a swap of neighbours looks two rows back.
+  // Three rows of the table are enough: a swap of neighbours uses the row before the last.
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {

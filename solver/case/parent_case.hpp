@@ -29,8 +29,8 @@ struct ParentCase {
 /// Returns their names.
 std::vector<std::string> inherit_sections(const ParentCase& parent, Node& root);
 
-/// What a case asks for and the state of its parent does not allow: one problem a key, with its key and reason; file
-/// and line are left to the reader. Entries of materials, joints and contacts are compared by their groups.
+/// Settings of a case that the state of its parent does not allow: one problem a key, with key and reason; the reader
+/// adds file and line. Entries of materials, joints and contacts are compared by their groups.
 /// @param inherited  sections that the case has from the parent
 [[nodiscard]] std::vector<Problem> refused_changes(const ParentCase& parent, const Case& now,
                                                    const std::vector<std::string>& inherited);

@@ -230,7 +230,7 @@ class Reader {
     try {
       return parse_quantity("1 " + a).value != parse_quantity("1 " + b).value;
     } catch (const UnitError&) {
-      return false;  // the header may say anything where the case has the unit
+      return false;  // the header is free if the case has the unit
     }
   }
 

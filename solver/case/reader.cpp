@@ -144,7 +144,7 @@ class SectionReader {
     return joined(std::vector<std::string>(names.begin(), names.end()));
   }
 
-  // Calls read with what the file says, else with the default of the schema.
+  // Calls read with the value of the file, else with the default of the schema.
   template <class Read>
   void with_node(std::string_view name, Read read) {
     const Key& key = key_of(pattern(name));
@@ -220,7 +220,7 @@ bool told_already(std::span<const Problem> problems, const Problem& problem) {
   });
 }
 
-/// What groups of one entry have in common is told once.
+/// Reports common problems of the groups of one entry once.
 void tell_once(std::vector<Problem>& problems) {
   std::set<std::tuple<std::string, std::string, std::string>> told;
   std::erase_if(problems,

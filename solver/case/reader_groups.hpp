@@ -9,10 +9,10 @@
 namespace breccia::case_ {
 
 /// Makes one entry for each group of those that name a list of groups, in every list of tables that has a key of the
-/// type text_or_list. Node::place of the entries tells where each was written. What is no list of names stays as it is,
-/// to be refused where it is read. "*" of joint.group stands for the groups with joints that no other [[joint]] names,
-/// "*" of material.group for the volumes that no other [[material]] names; without volumes it stays (groups.hpp), and
-/// that of joint.group with it. @param volumes  groups of the mesh; empty: not known
+/// type text_or_list. Node::place of the entries is the place of each in the file. Values that are no list of names
+/// remain, and are refused when they are read. "*" of joint.group stands for the groups with joints that no other
+/// [[joint]] names, "*" of material.group for the volumes that no other [[material]] names; without volumes it stays
+/// (groups.hpp), and that of joint.group with it. @param volumes  groups of the mesh; empty: not known
 void expand_groups(Node& root, std::span<const std::string> volumes);
 
 /// The path of something in a tree so expanded, with the indices of the entries as they were written.

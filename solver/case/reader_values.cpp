@@ -122,7 +122,7 @@ void ValueReader::read(const Key& key, const Node& node, const std::string& path
 void ValueReader::read(const Key& key, const Node& node, const std::string& path, std::string& out) {
   // Lists of names have become one entry each.
   if (key.type == ValueType::text_or_list && node.is(Node::Kind::list))
-    return problem(node, path, node.items.empty() ? "is an empty list" : "is a list with what is no name",
+    return problem(node, path, node.items.empty() ? "is an empty list" : "is a list with entries that are no names",
                    allowed_text(key), node.shown());
   if (!node.is(Node::Kind::text)) return wrong_type(key, node, path);
   // Only texts with a default may be empty: the others name a group.

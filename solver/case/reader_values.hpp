@@ -22,9 +22,8 @@ namespace breccia::case_ {
 /// "path[i]", the key of an item in messages.
 [[nodiscard]] std::string indexed(const std::string& path, std::size_t i);
 
-/// Turns nodes of a case file into typed SI values as their row of the schema says: type, unit, choices, range.
-/// Every read appends what is wrong to the problems and then leaves its output as it was. `path` is the key in
-/// messages.
+/// Converts nodes of a case file to typed SI values by their row of the schema: type, unit, choices, range. A failed
+/// read appends its problems and leaves its output unchanged. `path` is the key in messages.
 class ValueReader {
  public:
   ValueReader(std::vector<Problem>& problems, std::filesystem::path folder)

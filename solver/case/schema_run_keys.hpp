@@ -16,49 +16,47 @@ using enum Level;
 // clang-format off
 inline constexpr auto run_keys = std::to_array<Key>({
     {.path = "detection", .type = section,
-     .help = "Search for points and elements that may touch. It changes the speed, never the results."},
+     .help = "Search for pairs of points and elements that may be in contact. It affects the speed, not the results."},
     {.path = "detection.algorithm", .type = choice, .fallback = "packed_tree",
      .choices = "ms|ms_slices|sorted_grid|packed_tree|brute_force",
-     .help = "ms: the MS-tree and MS-search; ms_slices: the same one slice at a time; a sorted grid; a packed tree, "
-             "the fastest where sizes differ or the order in memory is poor; or all against all.", .example = "\"ms\""},
+     .help = "ms: the MS-tree and MS-search; ms_slices: the same one slice at a time; sorted_grid: a sorted grid; "
+             "packed_tree: a packed tree, the fastest for different sizes or a poor order in memory; brute_force: all "
+             "against all.", .example = "\"ms\""},
     {.path = "detection.buffer", .type = number, .unit = "m", .fallback = "auto", .range = positive, .word = "auto",
-     .help = "Distance by which boxes are enlarged, so that a search lasts several steps. auto: a share of the element "
-             "size. Less than a tenth of the mean size of what can be touched acts as that tenth.",
+     .help = "Distance by which boxes are enlarged, so that one search serves several steps. auto: a share of the "
+             "element size. The least value in use is a tenth of the mean size of the elements that can be touched.",
      .example = "\"0.5 mm\""},
     {.path = "detection.cell", .type = number, .unit = "m", .fallback = "auto", .range = positive, .word = "auto",
      .help = "Edge of a cell of ms, ms_slices and sorted_grid; the others have none. auto: from buffer and element "
              "size.", .example = "\"5 mm\""},
     {.path = "detection.verify", .type = boolean, .fallback = "false",
-     .help = "Compare every step with all against all; slow.", .example = "true"},
+     .help = "Compare every step with a search of all against all; slow.", .example = "true"},
 
     {.path = "domains", .type = section,
-     .help = "How a run on several ranks (mpiexec -n N) divides the model. It changes the speed, never the results."},
+     .help = "Division of the model over the ranks of a run (mpiexec -n N). It affects the speed, not the results."},
     {.path = "domains.kind", .type = choice, .fallback = "rcb", .choices = "rcb|grid",
-     .help = "rcb: bisected again and again so that all ranks have the same work; grid: equal cuboids. A small "
-             "fragment goes to one domain, whole.",
-     .example = "\"grid\""},
+     .help = "rcb: recursive coordinate bisection with equal work on all ranks; grid: equal cuboids. A small fragment "
+             "belongs to one domain as a whole.", .example = "\"grid\""},
     {.path = "domains.n", .type = integers_or_one, .fallback = "[0, 0, 0]", .range = at_most_100000,
-     .help = "Cuboids of the grid along x, y and z, as many as ranks; 0: chosen so that the least area is cut.",
+     .help = "Cuboids of the grid along x, y and z, as many as ranks; 0: chosen for the smallest cut area.",
      .example = "[2, 2, 1]"},
     {.path = "domains.exchange", .type = choice, .fallback = "non_blocking", .choices = "non_blocking|pairwise",
-     .help = "non_blocking: a rank sends to all its neighbours at once; pairwise: couple by couple, by a schedule in "
-             "which no rank waits for a third.", .example = "\"pairwise\""},
+     .help = "non_blocking: a rank sends to all its neighbours at once; pairwise: one pair of ranks after the other, "
+             "by a schedule without chains of waiting ranks.", .example = "\"pairwise\""},
     {.path = "domains.rebalance", .type = boolean, .fallback = "true",
-     .help = "Divide anew when that pays: when ranks have waited for each other for as long as it takes.",
-     .example = "false"},
+     .help = "Divide the model again when the accumulated waiting time of the ranks exceeds the cost of a new "
+             "division.", .example = "false"},
     {.path = "domains.margin", .type = number, .fallback = "1", .range = {.lower = 0.1, .upper = 100},
-     .help = "How far beyond a domain a rank knows its neighbours' elements at least, in the mean of the elements' "
-             "longest edges. Larger: fewer new divisions while bodies move, but more to search. For fast bodies it is "
-             "widened up to fivefold by itself.",
-     .example = "2"},
+     .help = "Width of the halo of a domain in mean longest edges of the elements. Larger: fewer new divisions while "
+             "bodies move, but more to search. Breccia enlarges it up to fivefold for fast bodies.", .example = "2"},
     {.path = "domains.patience", .type = number, .unit = "s", .fallback = "300", .range = positive,
-     .help = "Wall time that a rank waits for others before it says for whom, and where; after twice as long the "
-             "run ends. A script in situ that takes so long is interrupted and switched off.",
+     .help = "Wall time that a rank waits for others before a warning names them and the place; after twice this time "
+             "the run ends. An in-situ script that takes so long is interrupted and switched off.",
      .example = "\"20 min\""},
 
     {.path = "checkpoint", .type = section,
-     .help = "When the whole state is written into RUN/checkpoints, so that `breccia resume` goes on from there. "
-             "Beside these times it is at the end of every stage and of the run, and when the run is asked to end."},
+     .help = "When the whole state is written to RUN/checkpoints, from which `breccia resume` continues. A checkpoint "
+             "is also written at the end of every stage and of the run, and when a signal or command ends the run."},
     {.path = "checkpoint.steps", .type = integer, .fallback = "0", .range = steps,
      .help = "Steps between checkpoints; 0: not by steps.", .example = "10000"},
     {.path = "checkpoint.interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
@@ -67,13 +65,12 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .range = not_negative,
      .help = "Wall time between checkpoints; 0: not by wall time.", .example = "\"10 min\""},
     {.path = "checkpoint.keep", .type = integer, .fallback = "2", .range = at_most_100000,
-     .help = "So many of the last checkpoints are kept, and the last one known to be sound; 0: none are written.",
-     .example = "5"},
+     .help = "Number of checkpoints to keep, in addition to the last sound one; 0: none are written.", .example = "5"},
 
-    {.path = "output", .type = section, .help = "What a run writes, and how often."},
+    {.path = "output", .type = section, .help = "Results that a run writes, and their intervals."},
     {.path = "output.frame_interval", .level = basic, .type = number, .unit = "s", .fallback = "0",
      .range = not_negative,
-     .help = "Simulated time between frames for ParaView; 0: the last state only.", .example = "\"1 us\""},
+     .help = "Simulated time between frames for ParaView; 0: only the last state.", .example = "\"1 us\""},
     {.path = "output.history_interval", .level = basic, .type = number, .unit = "s", .fallback = "auto",
      .range = positive,
      .word = "auto",
@@ -84,73 +81,67 @@ inline constexpr auto run_keys = std::to_array<Key>({
     {.path = "output.contacts", .type = boolean, .fallback = "true", .help = "Contact points in frames.",
      .example = "false"},
     {.path = "output.gauges", .level = basic, .type = text_list, .fallback = "[]",
-     .help = "Groups, or bodies as \"body 3\" (frames show their numbers), of which the history records reaction, "
+     .help = "Groups, or bodies as \"body 3\" (frames show their numbers), for which the history records reaction, "
              "contact force, displacement, velocity, centre of mass, momentum, spin, resultant force and torque. Means "
-             "are weighted by mass. The reaction is the force of the constraints on the group, what accelerates the "
-             "held part included: under a press that moves down it points down. Velocity, momentum and spin are those "
-             "of half a step after the other columns of their line.", .example = "[\"support\", \"body 0\"]"},
+             "are weighted by mass. The reaction is the force of the constraints on the group, inertia of the "
+             "constrained nodes included: under a press that moves down it points down. Velocity, momentum and spin "
+             "are half a step later than the other columns.", .example = "[\"support\", \"body 0\"]"},
 
     {.path = "insitu", .type = section,
-     .help = "Pictures, extracts and live views that are made while the run goes on, by ParaView Catalyst "
-             "(catalyst/README.md)."},
+     .help = "Pictures, extracts and live views that ParaView Catalyst makes during the run (catalyst/README.md)."},
     {.path = "insitu.run", .level = basic, .type = text_list, .fallback = "[]",
-     .help = "Pipelines that run up to 50 times over the simulated time, at even distances: names as in "
-             "insitu.pipeline.name, or scripts. Those with triggers or parameters of their own are "
-             "[[insitu.pipeline]].",
+     .help = "Pipelines that are executed up to 50 times at equal intervals of simulated time: names as in "
+             "insitu.pipeline.name, or scripts. Use [[insitu.pipeline]] for triggers or parameters.",
      .example = "[\"fractures\", \"stress\"]"},
     {.path = "insitu.max_overhead", .type = number, .fallback = "0.02", .range = {.lower = 0, .upper = 1,
      .lower_open = true},
-     .help = "Share of the wall time that pipelines may take, starts included. Each gets an even part and what others "
-             "leave of theirs; it is executed twice to learn what that costs, then at even distances over the rest of "
-             "the run. Pipelines with triggers by broken joints or wall time are passed over while they have taken "
-             "more. Strict pipelines and insitu.least_instants go beyond it.",
-     .example = "0.1"},
+     .help = "Largest share of the wall time for pipelines, start-up included. Each has an equal share plus unused "
+             "parts of others; after two executions that measure its cost it runs at equal intervals. Executions by "
+             "broken joints or wall time are skipped while the share is exceeded. Strict pipelines and "
+             "insitu.least_instants may exceed it.", .example = "0.1"},
     {.path = "insitu.least_instants", .type = integer, .fallback = "20", .range = steps,
-     .help = "Pipelines of insitu.run (breccia run --insitu) are executed at least so many times over the simulated "
-             "time, whatever that costs; 0: max_overhead counts.",
-     .example = "50"},
+     .help = "Least number of executions of each pipeline of insitu.run (breccia run --insitu), regardless of the "
+             "cost; 0: max_overhead decides.", .example = "50"},
     {.path = "insitu.on_error", .type = choice, .fallback = "warn", .choices = "warn|stop",
-     .help = "What a pipeline's failure means: warn and switch it off after three failures, or end the run.",
+     .help = "When a pipeline fails: warn, and switch it off after three failures; or stop the run.",
      .example = "\"stop\""},
 
     {.path = "insitu.backend", .type = choice, .fallback = "auto", .choices = "auto|paraview|catalyst2",
-     .help = "Who carries the pipelines out: paraview, the adaptor with ParaView linked; catalyst2, an implementation "
-             "of Catalyst 2 that is there at run time, such as that of a newer ParaView, for scripts; auto: paraview "
-             "where that adaptor can be loaded, else catalyst2 where libcatalyst and its implementation are found. "
-             "`breccia insitu info` tells what there is.",
+     .help = "Program that executes the pipelines. paraview: the adaptor linked with ParaView; catalyst2: an "
+             "implementation of Catalyst 2 found at run time, such as that of a newer ParaView, for scripts; auto: "
+             "paraview if its adaptor can be loaded, else catalyst2. `breccia insitu info` lists what is available.",
      .example = "\"catalyst2\""},
 
     {.path = "insitu.live", .type = section,
-     .help = "A running ParaView sees the run: `breccia live`, or Catalyst > Connect there, before or during the run. "
+     .help = "Live view of the run in ParaView: `breccia live`, or Catalyst > Connect there, before or during the run. "
              "`breccia run --live` adds this section."},
     {.path = "insitu.live.address", .type = text, .fallback = "\"localhost:22222\"",
-     .help = "Where ParaView listens, host:port.", .example = "\"localhost:22333\""},
+     .help = "Address at which ParaView listens, host:port.", .example = "\"localhost:22333\""},
     {.path = "insitu.live.remote", .type = boolean, .fallback = "false",
-     .help = "Allows an address on another machine; what is sent there is neither encrypted nor checked.",
+     .help = "Permits an address on another machine; the data are sent without encryption or authentication.",
      .example = "true"},
     {.path = "insitu.live.interval", .type = number, .unit = "s", .fallback = "1", .range = not_negative,
-     .help = "Wall time between two updates, at least.", .example = "\"0.2 s\""},
+     .help = "Least wall time between two updates.", .example = "\"0.2 s\""},
     {.path = "insitu.live.channels", .type = text_list,
      .fallback = "[\"surface\", \"fractures\", \"contacts\", \"domains\", \"elements\", \"history\"]",
      .choices = "elements|joints|fractures|contacts|surface|domains|history",
-     .help = "What ParaView is offered.", .example = "[\"surface\", \"fractures\"]"},
+     .help = "Channels that are offered to ParaView.", .example = "[\"surface\", \"fractures\"]"},
     {.path = "insitu.live.max_overhead", .type = number, .fallback = "0.05",
      .range = {.lower = 0, .upper = 1, .lower_open = true},
-     .help = "Share of the wall time that updates may take; they come more seldom when they would take more.",
-     .example = "0.5"},
+     .help = "Largest share of the wall time for updates; beyond it they become less frequent.", .example = "0.5"},
     {.path = "insitu.live.fields", .type = text_list, .fallback = "[]", .choices = insitu_fields,
-     .help = "The only arrays that are offered; none: all. The view of `breccia live` colours by von_mises, "
-             "time_of_failure and rank.", .example = "[\"von_mises\", \"time_of_failure\", \"rank\"]"},
+     .help = "Arrays that are offered; none: all. The view of `breccia live` colours by von_mises, time_of_failure and "
+             "rank.", .example = "[\"von_mises\", \"time_of_failure\", \"rank\"]"},
     {.path = "insitu.live.region", .type = section,
-     .help = "A box: cells whose centre lies outside of it are not offered."},
+     .help = "A box: cells with their centre outside are not offered."},
     {.path = "insitu.live.region.lower", .type = vector, .unit = "m", .required = true, .help = "Its lower corner.",
      .example = "[0, 0, 0]"},
     {.path = "insitu.live.region.upper", .type = vector, .unit = "m", .required = true, .help = "Its upper corner.",
      .example = "[\"10 mm\", \"10 mm\", \"1 mm\"]"},
 
     {.path = "insitu.pipeline[]", .type = section_list,
-     .help = "Something to be done with the state while the run goes on. It is done whenever one of its triggers says "
-             "so; without any, up to 50 times over the simulated time."},
+     .help = "A pipeline that processes the state during the run, at each of its triggers; without any, up to 50 times "
+             "over the simulated time."},
     {.path = "insitu.pipeline[].name", .type = text, .required = true,
      .choices = "volume|joints|fractures|contacts|surface|domains|history|probes|"
                 "fracture_growth|stress|ranks|contact_forces",
@@ -159,50 +150,47 @@ inline constexpr auto run_keys = std::to_array<Key>({
              ".py is a script exported from ParaView, relative to the case file.",
      .example = "\"fractures\""},
     {.path = "insitu.pipeline[].every_steps", .type = integer, .fallback = "0", .range = steps,
-     .help = "Trigger: every so many steps; 0: not by steps.", .example = "100"},
+     .help = "Trigger: number of steps between executions; 0: none.", .example = "100"},
     {.path = "insitu.pipeline[].every_time", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
-     .help = "Trigger: simulated time; 0: not by it.", .example = "\"1 us\""},
+     .help = "Trigger: simulated time between executions; 0: none.", .example = "\"1 us\""},
     {.path = "insitu.pipeline[].every_wall", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
-     .help = "Trigger: wall time; 0: not by it.", .example = "\"30 s\""},
+     .help = "Trigger: wall time between executions; 0: none.", .example = "\"30 s\""},
     {.path = "insitu.pipeline[].every_broken", .type = integer, .fallback = "0", .range = steps,
-     .help = "Trigger: so many more joints broken; 0: not by them.", .example = "50"},
+     .help = "Trigger: number of newly broken joints between executions; 0: none.", .example = "50"},
     {.path = "insitu.pipeline[].first_break", .type = boolean, .fallback = "false",
      .help = "Trigger: the first joint breaks.",
      .example = "true"},
     {.path = "insitu.pipeline[].strict", .type = boolean, .fallback = "false",
-     .help = "Every trigger counts, whatever it costs.", .example = "true"},
+     .help = "Execute at every trigger, regardless of the cost.", .example = "true"},
     {.path = "insitu.pipeline[].least_instants", .type = integer, .fallback = "0", .range = steps,
-     .help = "Executed at least so many times over the simulated time, whatever that costs.", .example = "20"},
+     .help = "Least number of executions over the simulated time, regardless of the cost.", .example = "20"},
     {.path = "insitu.pipeline[].parameters", .type = settings, .fallback = "{}",
-     .help = "Handed to the pipeline: width, height, azimuth, elevation, zoom, lower, upper and title for pictures; "
-             "any numbers, in SI or with a unit, and texts for scripts. A script that asks for a text gets it as it is "
-             "written.",
-     .example = "{ width = 1280, title = \"plate\" }"},
+     .help = "Parameters of the pipeline: width, height, azimuth, elevation, zoom, lower, upper and title for "
+             "pictures; any numbers, in SI or with a unit, and texts for scripts. A script that requests a text gets "
+             "it unchanged.", .example = "{ width = 1280, title = \"plate\" }"},
     {.path = "insitu.pipeline[].fields", .type = text_list, .fallback = "[]", .choices = insitu_fields,
-     .help = "The only arrays that recordings, probes and scripts of yours are handed; none: all.",
-     .example = "[\"id\", \"stress\"]"},
+     .help = "Arrays that recordings, probes and your scripts receive; none: all.", .example = "[\"id\", \"stress\"]"},
     {.path = "insitu.pipeline[].region", .type = section,
-     .help = "A box: cells whose centre lies outside of it, as they stand at that time, are not handed over."},
+     .help = "A box: cells with their present centre outside are not passed to the pipeline."},
     {.path = "insitu.pipeline[].region.lower", .type = vector, .unit = "m", .required = true,
      .help = "Its lower corner.", .example = "[0, 0, 0]"},
     {.path = "insitu.pipeline[].region.upper", .type = vector, .unit = "m", .required = true,
      .help = "Its upper corner.", .example = "[\"10 mm\", \"10 mm\", \"1 mm\"]"},
     {.path = "insitu.pipeline[].probe[]", .type = section_list,
-     .help = "Where the pipeline probes records fields: at a point, along a line (along, points), or on a plane "
-             "(across and rows too). The points stand still in space; the values are those of the element that is "
-             "there."},
+     .help = "Points at which the pipeline probes records fields: one point, a line (along, points), or a plane "
+             "(across and rows too). The points are fixed in space; values are those of the element at the point."},
     {.path = "insitu.pipeline[].probe[].name", .type = text, .required = true,
      .help = "The file is extracts/probes/NAME.csv.", .example = "\"tip\""},
     {.path = "insitu.pipeline[].probe[].at", .type = vector, .unit = "m", .required = true,
-     .help = "The point, or where the line begins, or a corner of the plane.", .example = "[0, 0, \"1 mm\"]"},
+     .help = "The point, the start of the line, or a corner of the plane.", .example = "[0, 0, \"1 mm\"]"},
     {.path = "insitu.pipeline[].probe[].along", .type = vector, .unit = "m", .fallback = "[0, 0, 0]",
-     .help = "From there to the last of the points.", .example = "[\"10 mm\", 0, 0]"},
+     .help = "Vector from there to the last point of the line.", .example = "[\"10 mm\", 0, 0]"},
     {.path = "insitu.pipeline[].probe[].points", .type = integer, .fallback = "1", .range = at_most_10000_points,
-     .help = "So many points, both ends included.", .example = "11"},
+     .help = "Number of points, both ends included.", .example = "11"},
     {.path = "insitu.pipeline[].probe[].across", .type = vector, .unit = "m", .fallback = "[0, 0, 0]",
-     .help = "From the first row of points to the last one.", .example = "[0, \"10 mm\", 0]"},
+     .help = "Vector from the first row of points to the last one.", .example = "[0, \"10 mm\", 0]"},
     {.path = "insitu.pipeline[].probe[].rows", .type = integer, .fallback = "1", .range = at_most_10000_points,
-     .help = "So many rows, the first and the last one included.", .example = "11"},
+     .help = "Number of rows, first and last included.", .example = "11"},
 
     {.path = "<function>", .type = notation,
      .help = "A function of time is a quantity, or a table of the keys below, which add up. Time counts from the start "
@@ -211,13 +199,13 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .help = "Value at all times.",
      .example = "\"1 MPa\""},
     {.path = "<function>.linear", .level = basic, .type = number, .unit = "*/s", .fallback = "0",
-     .help = "Growth a second, from 0 at time 0.", .example = "\"20 GPa/s\""},
+     .help = "Rate of growth from 0 at time 0.", .example = "\"20 GPa/s\""},
     {.path = "<function>.table", .level = basic, .type = points, .unit = "*",
-     .help = "Points [time, value], times increasing; straight between them, constant before the first and after the "
+     .help = "Points [time, value], times increasing; linear between them, constant before the first and after the "
              "last.", .example = "[[0, 0], [\"1 ms\", \"1 mm\"]]"},
 
     {.path = "<function>.ramp[]", .type = section_list,
-     .help = "From one value to another in a straight line, constant before and after. One table, or a list of them."},
+     .help = "Linear from one value to another, constant before and after. One table, or a list of them."},
     {.path = "<function>.ramp[].from", .level = basic, .type = number, .unit = "*", .fallback = "0",
      .help = "Value before.",
      .example = "0"},
@@ -231,10 +219,11 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .example = "\"2.4 s\""},
 
     {.path = "<function>.csv[]", .type = section_list,
-     .help = "Points from a text file of columns (CSV), straight between them, constant before the first and after the "
-             "last; at most 100000 lines and 64 MiB. Columns are apart by semicolons, tabs, commas or blanks; numbers "
-             "have decimal points; a header is optional; lines that begin with #, % or ! are left out. The case in the "
-             "run folder holds the points: a resumed run does not need the file. One table, or a list of them."},
+     .help = "Points from a text file of columns (CSV), linear between them, constant before the first and after the "
+             "last; at most 100000 lines and 64 MiB. Columns are separated by semicolons, tabs, commas or blanks; "
+             "numbers have decimal points; a header is optional; lines that begin with #, % or ! are ignored. The case "
+             "in the run folder contains the points: a resumed run does not need the file. One table, or a list of "
+             "them."},
     {.path = "<function>.csv[].file", .level = basic, .type = path, .required = true,
      .help = "The file, relative to the case file.",
      .example = "\"shake.csv\""},
@@ -251,7 +240,7 @@ inline constexpr auto run_keys = std::to_array<Key>({
     {.path = "<function>.csv[].scale", .type = number, .fallback = "1", .help = "Factor of the values.",
      .example = "-1"},
     {.path = "<function>.csv[].start", .type = number, .unit = "s", .fallback = "0",
-     .help = "Time of the run at which that of the file is 0.", .example = "\"2.4 s\""},
+     .help = "Time of the run at time 0 of the file.", .example = "\"2.4 s\""},
 
     {.path = "<function>.sine[]", .type = section_list,
      .help = "amplitude sin(2 pi frequency t + phase). One table, or a list of them."},

@@ -10,13 +10,13 @@ namespace breccia::case_ {
 struct Topic {
   std::string_view words;   ///< "a|b|c", lower case, one of each
   std::string_view answer;  ///< one or two sentences
-  std::string_view keys;    ///< "a|b|c", plain paths of sections and keys that tell more
+  std::string_view keys;    ///< "a|b|c", plain paths of the relevant sections and keys
 };
 
 [[nodiscard]] const std::vector<Topic>& topics();
 
-/// Parts of that table: words of mechanics, materials, loads and results; of computers, files and other programs. Where
-/// Breccia has no such thing the answer says so, and which way leads there.
+/// Parts of that table: words of mechanics, materials, loads and results; of computers, files and other programs. If
+/// Breccia has no such feature the text states it, with an alternative.
 [[nodiscard]] std::span<const Topic> physics_topics();
 [[nodiscard]] std::span<const Topic> program_topics();
 

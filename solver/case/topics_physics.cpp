@@ -15,22 +15,22 @@ constexpr auto kPhysicsTopics = std::to_array<Topic>({
      "stage.pressure|stage.constraint.displacement|start"},
     {"water|fluid|flow|pore|pore pressure|pore water|permeability|seepage|darcy|groundwater|hydro mechanical|"
      "poroelastic|drained|undrained",
-     "There is no fluid in Breccia. Water in a crack that is known is a [[stage.pressure]] on its surface, "
-     "water on a wall likewise; with pore pressures that are known, give effective stresses and strengths.",
+     "There is no fluid in Breccia. Model water in a known crack or on a wall by a [[stage.pressure]] on its surface; "
+     "for known pore pressures give effective stresses and strengths.",
      "stage.pressure|joints.broken"},
     {"hydraulic|hydraulic fracturing|hydraulic fracture|fracking|fracturing|hydrofrac|injection|proppant|"
      "leak off",
-     "There is no flow in cracks. A [[stage.pressure]] on a surface that has broken opens it, with a pressure "
-     "that is a function of time and does not spread with the crack.",
+     "There is no flow in cracks. A [[stage.pressure]] opens a broken surface; it is a function of time and does not "
+     "spread with the crack.",
      "stage.pressure|joints.broken|stage.broken"},
     {"periodic|periodic boundary|periodic boundary condition|pbc|cyclic symmetry|representative volume|rve|"
      "homogenization|homogenisation",
-     "There are no periodic boundaries: model a piece with planes of symmetry, or a larger one of which the "
-     "middle counts. Borders that absorb waves stand for what goes on without end.",
+     "There are no periodic boundaries: model a piece with planes of symmetry, or a larger one and evaluate its "
+     "middle. Absorbing borders represent an infinite surrounding.",
      "stage.constraint.fixed|stage.absorbing"},
     {"axisymmetric|axisymmetry|axial symmetry|rotational symmetry|axially symmetric",
-     "There is no axisymmetric model: cracks are not. A sector with two planes of symmetry, held along their "
-     "normals, is the nearest.",
+     "There is no axisymmetric model, since cracks are not axisymmetric. Use a sector with two planes of symmetry, "
+     "fixed along their normals.",
      "stage.constraint.fixed|plane"},
     {"modal|mode shape|modal analysis|eigenvalue|eigenfrequency|eigenfrequencies|natural frequency|"
      "natural frequencies|frequency response|harmonic|buckling|resonance",
@@ -74,8 +74,8 @@ constexpr auto kPhysicsTopics = std::to_array<Topic>({
      "mesh.file|mesh.size|mesh.scale|mesh.raster"},
     {"elastic|elasticity|linear elastic|isotropic|hooke|neo hooke|hyperelastic|hyperelasticity|rubber|"
      "mooney rivlin|ogden|young modulus|elastic modulus|shear modulus|bulk modulus|lame|poisson ratio|stiffness",
-     "Elements are isotropic, by young and poisson: neo-Hookean for any rotation and strain, or Green-St. "
-     "Venant. Of a shear modulus G, young = 2 G (1 + poisson). Mooney-Rivlin, Ogden and others there are not.",
+     "Elements are isotropic, by young and poisson: neo-Hookean for any rotation and strain, or Green-St. Venant. Of a "
+     "shear modulus G, young = 2 G (1 + poisson). Mooney-Rivlin, Ogden and others are not available.",
      "material.young|material.poisson|material.law"},
     {"anisotropic|anisotropy|orthotropic|orthotropy|transversely isotropic|transverse isotropy|composite|"
      "laminate|lamina|fibre|fiber|fibre reinforced|fiber reinforced|cfrp|gfrp|ply|delamination|textile",
@@ -84,14 +84,14 @@ constexpr auto kPhysicsTopics = std::to_array<Topic>({
      "joint.between|material.law|mesh.glue"},
     {"plasticity|plastic|plastic flow|yield|yield stress|yield strength|elastoplastic|von mises plasticity|j2|"
      "flow rule|cap model|cam clay|crushable foam|foam",
-     "material.law = \"drucker_prager\" yields and flows, with cohesion, friction, dilation, hardening, a cap "
-     "and a tension cut-off; with friction_angle = 0 it is von Mises'. Other models there are not.",
+     "material.law = \"drucker_prager\" yields and flows, with cohesion, friction, dilation, hardening, a cap and a "
+     "tension cut-off; with friction_angle = 0 it is von Mises'. Other models are not available.",
      "material.law|material.cohesion|material.friction_angle|material.hardening|material.cap_pressure"},
     {"rate|rate dependence|rate dependent|strain rate effect|dynamic increase factor|dif|johnson cook|"
      "cowper symonds|viscoplastic|viscoplasticity",
-     "Strengths do not depend on the rate; material.viscosity adds a stress in proportion to the rate of "
-     "strain. Inertia of fragments raises apparent strengths by itself. For a given rate, multiply strengths by "
-     "their dynamic increase.",
+     "Strengths do not depend on the rate; material.viscosity adds a stress in proportion to the rate of strain. "
+     "Inertia of fragments already raises apparent strengths. For a given rate, multiply strengths by their dynamic "
+     "increase.",
      "material.viscosity|joint.tensile_strength|initial_velocity.strain_rate"},
     {"viscoelastic|viscoelasticity|maxwell|kelvin voigt|prony|prony series|relaxation|creep|ageing|aging|"
      "shrinkage|time dependent",
@@ -99,8 +99,8 @@ constexpr auto kPhysicsTopics = std::to_array<Topic>({
      "Strengths can be changed between runs with [start].",
      "material.viscosity|start"},
     {"fatigue|cyclic|cyclic loading|s n curve|paris law|subcritical crack growth|stress corrosion",
-     "There is no law of fatigue: joints below their strength keep it. They unload towards the origin and "
-     "soften by what they open; a load may be any function of time.",
+     "There is no law of fatigue: joints below their strength keep it. They unload towards the origin and soften with "
+     "their opening; a load may be any function of time.",
      "joint|joint.softening|function.table"},
     {"equation of state|eos|shock|shock wave|hugoniot|mie grueneisen|jwl|jones wilkins lee|detonation|hydrocode|"
      "ale|eulerian",
@@ -150,21 +150,21 @@ constexpr auto kPhysicsTopics = std::to_array<Topic>({
     {"seismic|earthquake|ground motion|accelerogram|acceleration|base excitation|response spectrum|vibration|"
      "shaking",
      "A [[stage.constraint]] on the base with a velocity or displacement as a table of times and values; an "
-     "accelerogram is integrated once beforehand. Response spectra there are not.",
+     "accelerogram is integrated once beforehand. Response spectra are not available.",
      "stage.constraint.velocity|function.table|stage.absorbing"},
     {"weight|self weight|dead load|body force|centrifuge|centrifugal force|g force",
-     "stage.gravity is an acceleration along x, y and z, a function of time each. A spinning frame there is "
-     "not: spin the body with initial_velocity.angular.",
+     "stage.gravity is an acceleration along x, y and z, a function of time each. There is no rotating frame: spin the "
+     "body with initial_velocity.angular.",
      "stage.gravity|initial_velocity.angular"},
     {"slope|dam|landslide|rock fall|rockfall|pillar|stope|mine|mining|caving|subsidence|foundation|footing|"
      "retaining wall|cavern|shaft|wellbore|cutting|tbm|disc cutter",
-     "A first run settles under gravity, a second one with [start] changes loads, strengths or what is dug. "
+     "A first run comes to rest under gravity; a second one with [start] changes loads or strengths, or excavates. "
      "Water in cracks is a [[stage.pressure]], borders absorb waves, interfaces have a [[joint]].",
      "start|stage.gravity|stage.pressure|joint.between|stage.absorbing"},
     {"three point bending|four point bending|bending test|double cantilever|dcb|compact tension|fracture test|"
      "indentation|scratch|point load test|punch|drill|grinding|milling|crushing|comminution|fragmentation|mill",
-     "Sample, supports and tools are volumes of one geometry, with [[contact]] between them; tools are held or "
-     "driven by a [[stage.constraint]] and record forces as output.gauges. meshes/ has such cases.",
+     "Sample, supports and tools are volumes of one geometry, with [[contact]] between them; tools are fixed or driven "
+     "by a [[stage.constraint]], and output.gauges record their forces. meshes/ has such cases.",
      "contact|stage.constraint|output.gauges|joint"},
     {"gap element|contact law|contact stiffness|penalty method|lagrange multiplier|hertz|self contact|"
      "general contact|master slave|overlap|interpenetration|stick slip|coulomb friction",
@@ -178,8 +178,8 @@ constexpr auto kPhysicsTopics = std::to_array<Topic>({
      "output.history_interval|time.residual_limit|joint.energy_mode_1"},
     {"strain|deformation|velocity field|stress intensity|stress intensity factor|j integral|k factor|damage|"
      "mixed mode|mode i|mode ii",
-     "Element frames hold stress, velocity, displacement; joint frames damage, opening, slip, energies and the "
-     "mode of failure. Stress intensities and J integrals there are not: cracks grow by their energy.",
+     "Element frames hold stress, velocity, displacement; joint frames damage, opening, slip, energies and the mode of "
+     "failure. Stress intensities and J integrals are not computed: cracks grow by their energy.",
      "output.elements|output.joints|joint.energy_mode_1|joint.energy_mode_2"},
     {"result|export|post processing|postprocessing|plot|graph|hdf5|h5|vtkhdf|ensight|exodus|tecplot|matlab|"
      "octave|excel|pandas|numpy|origin lab",
@@ -188,11 +188,11 @@ constexpr auto kPhysicsTopics = std::to_array<Topic>({
      "page.",
      "output.frame_interval|output.history_interval|output.gauges"},
     {"video|movie|picture|image|screenshot|render|rendering|camera|live view|monitor|monitoring|dashboard",
-     "[insitu] draws pictures while a run goes on and joins them to an animation where ffmpeg is; `--live` "
-     "shows it in ParaView; the desktop and `breccia report` draw what frames hold.",
+     "[insitu] draws pictures during a run and joins them to an animation if ffmpeg is installed; `--live` shows the "
+     "run in ParaView; the desktop and `breccia report` draw frames.",
      "insitu|insitu.pipeline|insitu.live|output.frame_interval"},
     {"colour|color|colour map|color map|colormap|legend|opacity|transparency",
-     "Colours are chosen where results are looked at: in the desktop's results, in ParaView, or in a script of "
+     "Colours are chosen where results are displayed: in the desktop's results, in ParaView, or in a script of "
      "ParaView's that [insitu] runs. A case has none.",
      "insitu.pipeline|output.elements"},
 });

@@ -15,19 +15,19 @@ constexpr auto kProgramTopics = std::to_array<Topic>({
     {"parallel|parallelisation|parallelization|parallelism|mpi|rank|process|core|cpu|openmp|thread|"
      "multithreading|scaling|speedup|load balance|load balancing|domain decomposition|performance|speed up|slow|"
      "faster",
-     "`mpiexec -n N breccia run CASE` runs on N ranks to the same bits; there are no threads. `breccia check "
-     "CASE --ranks N` shows how the work is shared; ranks beyond the cores, or with few thousand elements each, "
-     "gain nothing.",
+     "`mpiexec -n N breccia run CASE` runs on N ranks with bitwise identical results; there are no threads. `breccia "
+     "check CASE --ranks N` shows the distribution of the work; more ranks than cores, or few thousand elements a "
+     "rank, bring no speed-up.",
      "domains|domains.rebalance|detection.algorithm"},
     {"cluster|hpc|supercomputer|slurm|sbatch|srun|pbs|torque|lsf|sge|queue|batch|batch job|job script|walltime|"
      "preemption|node",
-     "`srun breccia run CASE` or `mpiexec` in the job script. Before the limit of time let the queue send "
-     "SIGTERM, SIGUSR2 or SIGXCPU: the run ends with a checkpoint, and `breccia resume RUN` goes on, on any "
-     "number of ranks; SIGUSR1 writes one more.",
+     "`srun breccia run CASE` or `mpiexec` in the job script. Configure the queue to send SIGTERM, SIGUSR2 or SIGXCPU "
+     "before the time limit: the run ends with a checkpoint, and `breccia resume RUN` continues on any number of "
+     "ranks; SIGUSR1 writes a checkpoint.",
      "checkpoint|checkpoint.wall_interval|domains"},
     {"memory|ram|out of memory|disk|disk space|storage|file size|run time|runtime|wall time|cost|estimate",
-     "`breccia check CASE` gives memory, run time, frames and disk before a run. Breakable joints take some 7 "
-     "kB an element, shared nodes 0.5 kB. output.frame_interval decides the disk.",
+     "`breccia check CASE` estimates memory, run time, frames and disk space before a run. Breakable joints take some "
+     "7 kB an element, shared nodes 0.5 kB. output.frame_interval determines the disk space.",
      "mesh.memory_limit|output.frame_interval|material.joints"},
     {"windows|mac|macos|os x|apple|arm|linux|ubuntu|fedora|debian|wsl|docker|singularity|apptainer|container|"
      "conda|pip|spack|install|installation|package|compile|build",
@@ -37,13 +37,13 @@ constexpr auto kProgramTopics = std::to_array<Topic>({
     {"python|scripting|script|api|library|bindings|jupyter|automation|macro|subroutine|user subroutine|umat|"
      "vumat|plugin|extension|customize|customise",
      "There is no Python module and no user material: a case is a TOML file that any script can write, `--set "
-     "KEY=VALUE` changes it, --json and --progress json answer programs. [insitu] runs ParaView's Python "
+     "KEY=VALUE` changes it, --json and --progress json give output for programs. [insitu] runs ParaView's Python "
      "scripts.",
      "insitu.pipeline.name|insitu.on_error|mesh.parameters"},
     {"parameter study|parametric study|parametric|sweep|design of experiments|doe|optimisation|optimization|"
      "calibration|sensitivity|inverse analysis|fitting|machine learning",
-     "The desktop runs studies over several values of a key; a loop in a shell does with `breccia run CASE "
-     "--set KEY=VALUE -o FOLDER`. Optimisers there are not: an outside one reads summary.json and history.csv.",
+     "The desktop runs studies over several values of a key; so does a loop in a shell with `breccia run CASE --set "
+     "KEY=VALUE -o FOLDER`. There is no optimiser: an external one can read summary.json and history.csv.",
      "mesh.parameters|output.gauges"},
     {"gui|desktop|window|interface program|editor|cad window|preprocessor|pre processing|preprocessing|"
      "postprocessor",
@@ -61,14 +61,14 @@ constexpr auto kProgramTopics = std::to_array<Topic>({
      "CITATION.cff has the citation; sources of the methods are in solver/manual/theory/references.md.",
      "title"},
     {"stop|pause|abort|cancel|kill|interrupt|ctrl c|signal|steering|steer|restart file|hang",
-     "`breccia control RUN stop` (pause, resume, frame, checkpoint, extract) steers a run; Ctrl-C or SIGTERM "
-     "ends it after the step with a checkpoint; `breccia resume RUN` goes on, after a crash as well.",
+     "`breccia control RUN stop` (pause, resume, frame, checkpoint, extract) controls a run; Ctrl-C or SIGTERM ends it "
+     "after the step with a checkpoint; `breccia resume RUN` continues it, also after a crash.",
      "checkpoint|checkpoint.wall_interval|output.frame_interval"},
     {"security|sandbox|untrusted|trust|hash|reproducible|reproducibility|determinism|deterministic|provenance|"
      "verification|validation|accuracy|benchmark",
-     "Results are the same bits on any number of ranks; provenance.json has hashes of all inputs. A mesh is "
-     "read by a confined process; [insitu] scripts run as you. Comparisons with theory "
-     "and tests are listed in README.md and with the cases, meshes/*/README.md.",
+     "Results are the same bits on any number of ranks; provenance.json has hashes of all inputs. A confined process "
+     "reads meshes; [insitu] scripts run with the rights of the user. README.md and the cases, meshes/*/README.md, "
+     "list comparisons with theory and tests.",
      "mesh.memory_limit|mesh.time_limit|time.residual_limit"},
     {"abaqus|ls dyna|lsdyna|dyna|ansys|autodyn|radioss|nastran|optistruct|pam crash|comsol|marc|inp|inp file|"
      "k file|bdf|cdb|med|unv|keyword file|other software|migration|convert|conversion",
@@ -92,8 +92,9 @@ constexpr auto kProgramTopics = std::to_array<Topic>({
     {"xfem|extended finite element|phase field|cohesive crack|smeared crack|damage mechanics|gradient damage|"
      "nonlocal|crack band|czm|fem|fea|finite element|finite element method|bem|boundary element|"
      "finite difference",
-     "Cracks are discrete: joints on the faces between tetrahedra soften by their opening and give their "
-     "fracture energy, then the faces are free and touch. There is no smeared damage, phase field or enrichment.",
+     "Cracks are discrete: joints on the faces between tetrahedra soften with their opening and dissipate their "
+     "fracture energy; then the faces are free and can be in contact. There is no smeared damage, phase field or "
+     "enrichment.",
      "joint|joint.softening|material.joints"},
     {"submodel|submodelling|submodeling|multiscale|multi scale|coupling|co simulation|cosimulation|fsi|"
      "fluid structure interaction|mesh tying|superelement|substructure",
@@ -101,8 +102,8 @@ constexpr auto kProgramTopics = std::to_array<Topic>({
      "recorded elsewhere, as tables in a [[stage.constraint]].",
      "stage.constraint|function.table|output.gauges"},
     {"load step|load case|sequence|load history|time function|smooth step",
-     "A run is one or several [[stage]] with an end each; what a stage lacks it does not take over from the one "
-     "before. Loads and motions are numbers or functions of time: ramp, table, sine.",
+     "A run is one or several [[stage]] with an end each; stages do not inherit from the previous one. Loads and "
+     "motions are numbers or functions of time: ramp, table, sine.",
      "stage|stage.end|function.ramp|function.table"},
     {"centre of mass|center of mass|center|mass|volume|surface area",
      "Masses follow from density and the mesh; output.gauges records the momentum and mean motion of a group. "
@@ -119,9 +120,9 @@ constexpr auto kProgramTopics = std::to_array<Topic>({
      "spinning bodies.",
      "stage.constraint|stage.traction|stage.pressure|stage.force"},
     {"warning|error|exit code|energy residual|blow up|unstable|instability|nan|not a number|explodes",
-     "Exit codes: 0 success, 1 usage, 2 input, 3 the numbers went wrong, 4 a fault of ours. A run whose "
-     "energies leave their limits ends with the last checkpoint before it; usual causes are time.step, "
-     "penalties and units.",
+     "Exit codes: 0 success, 1 usage, 2 input, 3 failure of the simulation, 4 error in the program. A run whose "
+     "energies exceed their limits ends; the last sound checkpoint is kept. Usual causes are time.step, penalties and "
+     "units.",
      "time.residual_limit|time.energy_gain_limit|time.safety|contact.penalty"},
     {"default|key|toml|case file|input file|syntax|comment|include|variable",
      "A case is one TOML file; `breccia explain` lists its keys with their defaults. It has no variables and "

@@ -200,7 +200,7 @@ class UnitParser {
     return scale;
   }
 
-  // Keeps the whole-number arithmetic of exponents far from overflow whatever the text nests.
+  // Keeps the integer arithmetic of exponents far from overflow for any nesting of the text.
   void refuse_absurd(const Scale& scale) const {
     constexpr int limit = 400;
     const auto absurd = [](int power) { return std::abs(power) > limit; };
@@ -263,8 +263,8 @@ NumberText number_at_start(std::string_view text) {
   return out;
 }
 
-/// Signs that look like others, as text from a web page or a word processor has them: spaces (U+00A0, U+2009, U+202F),
-/// and a raised 2 or 3 behind a unit.
+/// Signs that resemble others, as in text from a web page or a word processor: spaces (U+00A0, U+2009, U+202F), and a
+/// raised 2 or 3 behind a unit.
 std::string with_plain_signs(std::string_view text) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kSigns{
       {{"\u00a0", " "}, {"\u2009", " "}, {"\u202f", " "}, {"\u00b2", "2"}, {"\u00b3", "3"}}};
@@ -278,7 +278,7 @@ std::string with_plain_signs(std::string_view text) {
   return plain;
 }
 
-/// Whether a number goes on with a comma: "0,2".
+/// Whether a number continues with a comma: "0,2".
 bool has_comma(std::string_view behind_digits) {
   return behind_digits.size() > 1 && behind_digits[0] == ',' &&
          std::isdigit(static_cast<unsigned char>(behind_digits[1])) != 0;

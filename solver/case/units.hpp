@@ -17,7 +17,7 @@ struct Dimension {
 /// "pressure", "length", ... or "m2 kg s-1" when the dimension has no everyday name.
 [[nodiscard]] std::string name_of(const Dimension& dimension);
 
-/// A quantity in SI. has_unit tells "3" from "3 m/m".
+/// A quantity in SI. has_unit distinguishes "3" from "3 m/m".
 struct Quantity {
   double value = 0;
   Dimension dimension;

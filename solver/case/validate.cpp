@@ -23,7 +23,7 @@
 namespace breccia::case_ {
 namespace {
 
-constexpr const char* unread = "";  // a group whose name was wrong, which has been told
+constexpr const char* unread = "";  // a group whose name was wrong, already reported
 
 constexpr std::int64_t most_domains = 1000000;
 
@@ -165,7 +165,7 @@ class Validator {
                 "a [[joint]] with group = \"" + m.group + "\", or joints = \"unbreakable\" or \"none\"", m.group);
   }
 
-  /// Keys of one kind say nothing in another: what was meant to act would not.
+  /// Keys of one kind have no effect in another, so they are refused.
   void softening_of_another_kind(const Joint& j) {
     const Joint usual;
     const auto refuse = [&](const char* name, const char* kind) {
@@ -184,9 +184,9 @@ class Validator {
     if (j.weibull_modulus > 0) return;
     const Joint usual;
     const std::string allowed = "a weibull_modulus as well";
-    if (j.weibull_area > 0) problem(j.origin, "weibull_area", "says nothing of strengths that do not scatter", allowed);
+    if (j.weibull_area > 0) problem(j.origin, "weibull_area", "has no effect without a weibull_modulus", allowed);
     if (j.weibull_seed != usual.weibull_seed)
-      problem(j.origin, "weibull_seed", "says nothing of strengths that do not scatter", allowed);
+      problem(j.origin, "weibull_seed", "has no effect without a weibull_modulus", allowed);
   }
 
   [[nodiscard]] bool is_breakable(const std::string& group) const {
@@ -261,7 +261,7 @@ class Validator {
       for (const std::string& group : contact.groups)
         if (group != every_group) needs_material(contact.origin, "between", group);
       if (contact.points_on == PointsOn::first && contact.groups[0] == contact.groups[1])
-        problem(contact.origin, "points_on", "\"first\" needs to know which group comes first",
+        problem(contact.origin, "points_on", "\"first\" requires two different groups",
                 "two different groups in `between`", words(contact.groups));
       const auto [first, is_new] = laws.emplace(sorted(contact.groups), line_of(contact.origin, "between"));
       if (!is_new)
@@ -315,8 +315,8 @@ class Validator {
                     ", which damps the waves that are to leave",
                 "one of them; material.viscosity may damp as well", "");
       if (stage.end != 0) start = stage.end;
-      // An axis held twice in one group has no answer; axes of different groups that share nodes are seen with the
-      // mesh.
+      // An axis constrained twice in one group is ambiguous; axes of different groups that share nodes are checked with
+      // the mesh.
       std::set<std::pair<std::string, std::size_t>> held;
       for (const Constraint& constraint : stage.constraints)
         for (std::size_t axis = 0; axis < 3; ++axis)

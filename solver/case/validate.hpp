@@ -14,7 +14,7 @@ namespace breccia::case_ {
 /// joint law, duplicates, exclusive choices, order of stages, files that exist. Problems carry the key; file and line
 /// are those of the section. Values that were never given (empty text, zero where the range excludes it) are not
 /// reported again.
-/// @param needs_mesh_file  false: the elements are those of a checkpoint, and the mesh file may be gone
+/// @param needs_mesh_file  false: the elements are those of a checkpoint; the mesh file may be missing
 [[nodiscard]] std::vector<Problem> validate(const Case& c, bool needs_mesh_file = true);
 
 /// Names of the groups of a mesh, as Mesh has them.

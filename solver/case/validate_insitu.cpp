@@ -40,7 +40,7 @@ class InSituValidator {
   std::vector<Problem> run() {
     for (const Pipeline& pipeline : c_.insitu.pipelines) this->pipeline(pipeline);
     if (c_.insitu.pipelines.size() > kMostPipelines)
-      problem(c_.insitu.origin, "", "asks for too many pipelines", "at most " + std::to_string(kMostPipelines),
+      problem(c_.insitu.origin, "", "has too many pipelines", "at most " + std::to_string(kMostPipelines),
               std::to_string(c_.insitu.pipelines.size()));
     if (c_.insitu.live) live(*c_.insitu.live);
     return std::move(problems_);
@@ -78,10 +78,9 @@ class InSituValidator {
                 "the history has neither cells nor fixed columns", "neither region nor fields");
     } else if (draws_pictures(pipeline.name)) {
       if (!pipeline.fields.empty())
-        problem(origin, "fields", "pictures are handed the fields that they need", "no fields",
-                joined(pipeline.fields));
+        problem(origin, "fields", "pictures select their fields themselves", "no fields", joined(pipeline.fields));
     } else if (pipeline.name == kProbes) {
-      if (pipeline.region) problem(pipeline.region->origin, "", "probes say themselves where they are", "no region");
+      if (pipeline.region) problem(pipeline.region->origin, "", "probes have their own positions", "no region");
       fields(origin, pipeline.fields, {"elements"});
     } else if (const std::string channel = channel_of(pipeline.name); !channel.empty()) {
       fields(origin, pipeline.fields, {channel});

@@ -12,7 +12,7 @@ namespace {
 
 std::string rounded(double value) { return number_text(value, 4); }
 
-/// What the parts of a function amount to at a time, whatever their signs.
+/// Sum of the absolute values of the parts of a function at a time.
 double parts_of(const TimeFunction& f, double time) {
   double sum = std::abs(f.constant) + std::abs(f.linear * time);
   for (const TimeFunction::Sine& s : f.sines) sum += std::abs(s.amplitude);
@@ -69,7 +69,7 @@ class MotionLimits {
  private:
   void demand(const Origin& origin, const char* name, double magnitude, double most, const std::string& unit) {
     if (magnitude <= most) return;
-    problems_.push_back(problem_at(c_, origin, name, "is beyond what can be computed",
+    problems_.push_back(problem_at(c_, origin, name, "is too large to be computed",
                                    "magnitudes up to " + rounded(most) + " " + unit, rounded(magnitude) + " " + unit));
   }
 

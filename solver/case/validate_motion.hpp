@@ -7,8 +7,8 @@
 
 namespace breccia::case_ {
 
-/// What is asked of the motion of nodes and cannot be meant: displacements that are not 0 where their stage starts (of
-/// the first stage of a case that starts from a state, see jumps_at), and what acts along the axis of a plane model.
+/// Checks imposed motions: displacements that are not 0 at the start of their stage (for the first stage of a case that
+/// starts from a state, see jumps_at), and loads or motions along the axis of a plane model.
 [[nodiscard]] std::vector<Problem> validate_motion(const Case& c);
 
 /// Displacements of a stage that are not 0 at the time at which it starts, s: they count from there, so nodes would

@@ -94,7 +94,7 @@ class SectionWriter {
     const Key& key = row(name);
     if constexpr (std::is_same_v<T, double>) {
       if (x == 0 && !key.word.empty()) return add(key, toml_text(std::string(key.word)));
-      // Keys without a default of their own say "not given" by zero.
+      // For keys without a default zero means "not given".
       const bool optional = !key.required && (key.fallback.empty() || key.fallback.starts_with('='));
       if (x == 0 && optional) return;
     }

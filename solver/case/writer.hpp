@@ -11,7 +11,7 @@ namespace breccia::case_ {
 
 /// The case as TOML in SI units with every default written out, units as comments. read_case() makes an equal Case of
 /// it: numbers are written with as many digits as they need to come back bit for bit, files with their absolute names.
-/// Case::resolved is not looked at.
+/// Case::resolved is ignored.
 [[nodiscard]] std::string write_case(const Case& c);
 
 /// A key of an entry as write_case() writes it.

@@ -34,7 +34,7 @@
 namespace breccia {
 namespace {
 
-/// Share of the stable step with which steps are timed: nothing moves, whatever step is given.
+/// Share of the stable step with which steps are timed: nothing moves, for any given step.
 constexpr double kShort = 1e-3;
 
 /// Seconds of a core that a step takes here at rest, on a scratch copy: what other programs take is not counted.
@@ -80,8 +80,8 @@ std::string overlap_report(const Subject& subject) {
 
 /// What an estimate leaves out. Two bodies that cannot break share one zone of contact, which costs little.
 std::string not_counted(const Model& model, bool breaks) {
-  constexpr Index kFew = 2;
-  if (!model.has_contact || (!breaks && model.mesh.num_bodies <= kFew)) return {};
+  constexpr Index kCheapBodies = 2;
+  if (!model.has_contact || (!breaks && model.mesh.num_bodies <= kCheapBodies)) return {};
   return fmt::format(" (not counted: contact among {}, with which it can be several times as long)",
                      breaks ? "debris" : "many bodies");
 }
@@ -253,8 +253,8 @@ std::string domain_table(const case_::Case& input, const Model& model, int parts
   }
   if (model.has_contact) {
     text +=
-        "- Contact is not counted: a rank also gathers and searches what comes near to its elements, which depends on "
-        "how bodies move.\n";
+        "- Contact is not included: a rank also gathers and searches elements near to its own, which depends on the "
+        "motion of the bodies.\n";
   }
   return text;
 }
@@ -317,8 +317,7 @@ CheckReport full_report(const Subject& subject, const std::string& from) {
   report.text = fmt::format("{}\n", printable(input.title));
   if (!from.empty())
     report.text += fmt::format(
-        "starts from {}; what is said of mesh, joints, contact and step is of the model at rest, before that run\n",
-        from);
+        "starts from {}; mesh, joints, contact and step are reported for the model at rest, before that run\n", from);
   report.text += mesh_report({model.mesh, model.mesh_report}, assess_quality(model.mesh));
   report.text += fmt::format("joints: {}\n", model.joints.size());
   report.text += joint_report(model, subject.joints()) + stiffness_report(model) +

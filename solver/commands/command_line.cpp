@@ -13,17 +13,16 @@ namespace {
 
 const char* kControlFooter =
     R"(Commands:
-  pause, resume               wait between two steps, and go on
+  pause, resume               wait between two steps; continue
   stop                        end after the present step, with everything written
-  extract                     let all in-situ pipelines work on the present state
+  extract                     execute all in-situ pipelines on the present state
   frame                       write a frame
   frame_interval TIME         from now on a frame every so much simulated time, such as "2 us"
-  checkpoint                  write the whole state, from which `breccia resume` goes on
+  checkpoint                  write the whole state, from which `breccia resume` continues
 The answer comes when it is done. A line with a command in the file `control` of the run's folder does the same.)";
 
 void define_control(CLI::App& app, Arguments& a) {
-  CLI::App* control =
-      app.add_subcommand("control", "Ask something of a run that goes on: pause, resume, stop, extract, ...");
+  CLI::App* control = app.add_subcommand("control", "Control a run in progress: pause, resume, stop, extract, ...");
   control->add_option("run", a.control.folder, "folder of the run")->required();
   const auto join = [&a](const std::vector<std::string>& words) {
     for (const std::string& word : words) a.control.command += (a.control.command.empty() ? "" : " ") + word;
@@ -41,17 +40,16 @@ void define_insitu(CLI::App& app, Arguments& a) {
   live->add_option("--set", a.live.overrides, kSetHelp)->allow_extra_args(false)->take_all()->check(override_text());
 
   CLI::App* insitu =
-      app.add_subcommand("insitu", "Pipelines that work while a run goes on: try them, or see what they need");
+      app.add_subcommand("insitu", "In-situ pipelines, executed during a run: test them, or list their requirements");
   insitu->require_subcommand(1);
-  insitu->add_subcommand("info", "what the in-situ adaptor is, or what is missing");
+  insitu->add_subcommand("info", "describe the in-situ adaptor, or its missing parts");
   CLI::App* replay = insitu->add_subcommand(
-      "replay", "Feed what a run has recorded (pipelines volume, surface, fractures, ...) through pipelines");
+      "replay", "Execute pipelines on recorded data of a run (pipelines volume, surface, fractures, ...)");
   replay->add_option("run", a.replay.run, "folder of the run")->required();
   replay->add_option("pipelines", a.replay.pipelines, "scripts exported from ParaView, or names of pipelines")
       ->required();
   replay
-      ->add_option("-o,--output", a.replay.folder,
-                   "folder of what they write; default: replay in the folder of the run")
+      ->add_option("-o,--output", a.replay.folder, "folder of their results; default: replay in the folder of the run")
       ->check(some_name());
   replay
       ->add_option("-p,--parameter", a.replay.parameters,
@@ -63,11 +61,11 @@ void define_insitu(CLI::App& app, Arguments& a) {
 
 void define_report(CLI::App& app, Arguments& a) {
   CLI::App* report = app.add_subcommand("report", "Write one HTML page of a run, to read, print and send on");
-  report->add_option("run", a.report.run, "folder of the run, which may go on or have been killed")->required();
+  report->add_option("run", a.report.run, "folder of the run, which may also be in progress or killed")->required();
   report->add_option("-o,--output", a.report.file, "file of the page; default: report.html in the folder of the run")
       ->check(some_name());
-  report->add_flag("--no-pictures", a.report.no_pictures, "leave out what ParaView makes of the frames");
-  const char* limit = "seconds that ParaView may take; what is done by then is shown; default 600";
+  report->add_flag("--no-pictures", a.report.no_pictures, "omit pictures and statistics of the frames by ParaView");
+  const char* limit = "time limit of ParaView, s; parts finished by then are shown; default 600";
   report->add_option("--time-limit", a.report.time_limit, limit)->check(CLI::Range(1, 1000000));
 }
 
@@ -76,8 +74,8 @@ void define_command_line(CLI::App& app, Arguments& a) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("breccia ") + program_version());
   app.footer(
-      "Exit codes: 0 success, 1 usage, 2 case, mesh or output refused, 3 the numbers went wrong, 4 a fault of ours, "
-      "128 + N ended by signal N: 130 Ctrl-C, 143 SIGTERM.");
+      "Exit codes: 0 success, 1 usage, 2 case, mesh or output refused, 3 failure of the simulation, 4 error in the "
+      "program, 128 + N ended by signal N: 130 Ctrl-C, 143 SIGTERM.");
 
   define_run(app, a);
   define_resume(app, a);
@@ -85,18 +83,16 @@ void define_command_line(CLI::App& app, Arguments& a) {
   define_insitu(app, a);
   define_race(app, a);
 
-  CLI::App* check =
-      app.add_subcommand("check", "Everything short of the first step: time step, memory, run time, advice");
+  CLI::App* check = app.add_subcommand("check", "Check a case without running it: time step, memory, run time, advice");
   check->add_option("case", a.check.case_file, kCaseHelp)->required();
   check->add_option("--set", a.check.overrides, kSetHelp)->allow_extra_args(false)->take_all()->check(override_text());
   check->add_flag("--trust-geometry", a.check.trust_geometry, kTrustHelp);
 
-  check
-      ->add_option("--ranks", a.check.ranks, "tell only how a run on so many ranks (mpiexec -n) would divide the model")
+  check->add_option("--ranks", a.check.ranks, "report only the division of the model over so many ranks (mpiexec -n)")
       ->check(CLI::Range(1, 1000000));
 
   check->add_flag("--joints", a.check.joints,
-                  "tell only, as JSON, the traction curves and strengths of the joint laws");
+                  "report only, as JSON, the traction curves and strengths of the joint laws");
   check->add_flag("--all", a.check.all, "all advice, not only the five that matter most");
   check->add_flag("--json", a.check.json, "as JSON, problems of the case too");
 
@@ -109,8 +105,8 @@ void define_command_line(CLI::App& app, Arguments& a) {
       ->check(some_name());
   mesh->add_flag("--json", a.mesh.json, "as JSON, problems of the case too");
   mesh->add_flag("--parameters", a.mesh.parameters,
-                 "tell only, as JSON, the numbers that the .geo of the case, or one that is given in its place, lets "
-                 "mesh.parameters set");
+                 "report only, as JSON, the numbers of the .geo of the case, or of a given one, that mesh.parameters "
+                 "can set");
 
   CLI::App* diff =
       app.add_subcommand("diff", "In which keys, inputs, versions and results two runs differ, and where they part");
@@ -123,8 +119,10 @@ void define_command_line(CLI::App& app, Arguments& a) {
   guide->add_option("topic", a.guide.topic, "a section, a key, or words such as ranks; otherwise the search for them");
   guide->add_flag("--address", a.guide.address_only, "print the address of the page, open nothing");
 
-  CLI::App* explain = app.add_subcommand(
-      "explain", "What a key of the case file means: unit, default, range; without one, the keys that most cases need");
+  CLI::App* explain =
+      app.add_subcommand("explain",
+                         "Describe a key of the case file: unit, default, range; without one, the keys that most cases "
+                         "need");
   explain->add_option("key", a.key, "such as material.young, the name of a section, or a word such as notch");
   explain->add_flag("--all", a.explain_all, "every key, also those for experts");
 
@@ -142,10 +140,10 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
   } else if (error.get_name() == "ArgumentMismatch" && what.ends_with(lacking) && what.find(':') != std::string::npos) {
     what.replace(what.find(':'), std::string::npos, ": the value is missing");
   }
-  return printable(what) + "; `" + command + " --help` tells what is allowed";
+  return printable(what) + "; `" + command + " --help` lists the allowed ones";
 }
 
-/// A first word that is no command, told before anything else of the line is read. @return  empty: all is well
+/// Message for a first word that is no command, before the rest of the line is parsed. @return  empty: all is well
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return {};
   std::vector<std::string> commands;
@@ -155,7 +153,7 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   }
   const std::string meant = case_::likely_meant(argv[1], commands);
   return "unknown command \"" + std::string(argv[1]) + "\"" + (meant.empty() ? "" : "; did you mean " + meant + "?") +
-         "; allowed: " + case_::joined(commands) + "; `breccia --help` tells what they do";
+         "; allowed: " + case_::joined(commands) + "; `breccia --help` describes them";
 }
 
 /// "insitu replay": the sub-commands that the line names.

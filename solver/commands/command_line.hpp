@@ -6,7 +6,7 @@
 
 namespace breccia {
 
-/// What one invocation asked for.
+/// Parsed command line.
 struct Arguments {
   RunCommand run;
   ResumeCommand resume;
@@ -30,7 +30,7 @@ struct CommandLine {
   std::string command;  ///< "run", "insitu replay", ...; empty: there is nothing to do but to print
   Arguments arguments;
   std::string problem;  ///< what is wrong with it, in one line; empty: nothing
-  std::string answer;   ///< the help or the version that it asks for
+  std::string answer;   ///< text of --help or --version, if given
 };
 [[nodiscard]] CommandLine read_command_line(int argc, char** argv);
 

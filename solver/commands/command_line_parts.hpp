@@ -16,7 +16,7 @@ inline constexpr const char* kProgressHelp =
     "bar, log (a line every few seconds), json (JSON lines on stdout), none; default auto: a bar on a terminal";
 
 inline constexpr const char* kTrustHelp =
-    "the geometry may do what gmsh lets it: run programs, write files; without, it is read by a process that cannot";
+    "let the geometry use all functions of gmsh: run programs, write files; without, a confined process reads it";
 
 /// An override names a key and a value.
 inline CLI::Validator override_text() {

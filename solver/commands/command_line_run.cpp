@@ -40,25 +40,25 @@ CLI::Validator simulated_time(bool zero_allowed) {
 }
 
 const char* kRaceFooter =
-    R"(Every algorithm races with every buffer, from the same state to the same step, in three laps of which the least
-times count. All must end in the same state: how contact is looked for never changes a result.
+    R"(Every search algorithm is timed with every buffer, from the same state to the same step; the best of three
+repetitions counts. All must end in the same state: the contact search never changes a result.
 
-The table has, the fastest first: searches in a lap and how many of them were used up (the last one lasts beyond the
-lap), the time of all searching and of one search, couples at the end, the time of contact forces, and that of a step
-as a whole, which pays for searches used up; on several ranks (mpiexec -n N) times are those of the slowest. Below it
-stand the lines for the case file; `breccia explain detection` tells what they mean.
+The table lists, the fastest first: searches of a repetition and how many of them expired (the last one remains
+valid), the time of all searches and of one, couples at the end, the time of contact forces, and that of a step
+as a whole, expired searches included; on several ranks (mpiexec -n N) times are those of the slowest. Below it
+are the lines for the case file; `breccia explain detection` explains them.
 
-Race where it matters, once things fly:  breccia race case.toml --from "50 us"
-Ctrl-C ends the race after the present step; what all have finished is told.)";
+Time a state with moving bodies:  breccia race case.toml --from "50 us"
+Ctrl-C ends the race after the present step; completed results are reported.)";
 
 const char* kResumeFooter =
-    R"(The run goes on as if nothing had happened: the same bits, whatever the number of ranks (mpiexec -n N), the
-division among them, the contact search and the instruction set. Lines of history.csv and status.jsonl and frames
-beyond the checkpoint are dropped and made anew. With -o the run's folder stays as it is, and the other one gets
+    R"(The run continues as without the interruption: bitwise identical for any number of ranks (mpiexec -n N), any
+division among them, contact search and instruction set. Lines of history.csv and status.jsonl and frames
+beyond the checkpoint are removed and computed again. With -o the folder of the run stays unchanged, and FOLDER gets
 all results.
 
-A checkpoint that is cut off or damaged is named, and the one before it is used; checkpoint.keep says how many
-there are.)";
+A truncated or damaged checkpoint is reported, and the previous one is used; checkpoint.keep is the number of
+checkpoints.)";
 
 /// What --live and --insitu add to the case, as overrides.
 void define_run_insitu(CLI::App& run, Arguments& a) {
@@ -85,8 +85,8 @@ void define_run_insitu(CLI::App& run, Arguments& a) {
   };
   run.add_option_function<std::vector<std::string>>(
          "--insitu", pipelines,
-         "pipelines that work while the run goes on, separated by commas, such as fractures,stress; a script by its "
-         "path; `breccia explain insitu`")
+         "pipelines to execute during the run, separated by commas, such as fractures,stress; a script by its path; "
+         "`breccia explain insitu`")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->take_all();
@@ -105,16 +105,16 @@ void define_run(CLI::App& app, Arguments& a) {
   run->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
   run->footer(
       "Writes frames for ParaView (frames/*.series), history.csv, status.jsonl, summary.json and .txt, the resolved "
-      "case and provenance.json.\n"
-      "Ctrl-C ends the run after the present step with everything written, with exit code 130 (under mpiexec, which "
-      "kills a second after it, `breccia control FOLDER stop` is the way); `breccia resume` goes on with it, also "
-      "after a power cut, from the last of its checkpoints (`breccia explain checkpoint`). SIGUSR1 asks for one.");
+      "case and provenance.json.\nCtrl-C ends the run after the present step with everything written, with exit code "
+      "130 (under mpiexec, which kills its processes after a second, use `breccia control FOLDER stop`); `breccia "
+      "resume` continues it, also after a power cut, from its last checkpoint (`breccia explain checkpoint`). SIGUSR1 "
+      "requests a checkpoint.");
 
   define_run_insitu(*run, a);
 }
 
 void define_resume(CLI::App& app, Arguments& a) {
-  CLI::App* resume = app.add_subcommand("resume", "Go on with a run from its last checkpoint, on any number of ranks");
+  CLI::App* resume = app.add_subcommand("resume", "Continue a run from its last checkpoint, on any number of ranks");
   resume->add_option("run", a.resume.run, "folder of the run, or one of its checkpoints")->required();
   resume->add_option("-o,--output", a.resume.folder, "folder of the results; default: the run's own")
       ->check(some_name());
@@ -122,8 +122,8 @@ void define_resume(CLI::App& app, Arguments& a) {
   resume
       ->add_option_function<std::string>(
           "--until", set_until,
-          "simulated time, such as \"2 ms\": before the end of the case the run stops there, beyond it the last stage "
-          "goes on to it; default: the end")
+          "simulated time, such as \"2 ms\": the run stops there; the last stage is extended to a time beyond the end; "
+          "default: the end")
       ->check(simulated_time(false));
   resume
       ->add_option(
@@ -133,7 +133,7 @@ void define_resume(CLI::App& app, Arguments& a) {
       ->take_all()
       ->check(override_text());
   resume->add_flag("--without-insitu", a.resume.without_insitu,
-                   "leave out the [insitu] of the case: where a script or the adaptor is gone; results are the same");
+                   "omit the [insitu] of the case, if a script or the adaptor is missing; results are the same");
   resume->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
   resume->footer(kResumeFooter);
 }

@@ -30,7 +30,7 @@ GroupSizes sizes_of(const Model& model) {
   return sizes;
 }
 
-/// s, by which friction on a group is late at most, 0: there is none. @param extent  m, (groups) of the largest body
+/// s, largest delay of friction on a group, 0: none. @param extent  m, (groups) of the largest body
 double longest_delay(const Model& model, std::size_t group, const std::vector<double>& extent) {
   double longest = 0;
   for (std::size_t other = 0; other < extent.size(); ++other) {
@@ -63,8 +63,8 @@ std::string stiffness_report(const Model& model) {
     const std::string range = most > least ? fmt::format("{:.3g} to {:.3g}", least / length[g], most / length[g])
                                            : fmt::format("{:.3g}", most / length[g]);
     text += fmt::format(
-        "contact of {}: stiffness penalty/H = {} Pa/m with H = {}; recommended penalty {}, E, or that "
-        "of what it meets if softer\n",
+        "contact of {}: stiffness penalty/H = {} Pa/m with H = {}; recommended penalty {}, E, or that of a softer "
+        "partner\n",
         names[g], range, quantity_text(length[g], "m"), quantity_text(young, "Pa"));
     if (const double delay = longest_delay(model, g, extent); delay > 0)
       text += fmt::format("  friction follows the normal force with a delay of up to {}\n", quantity_text(delay, "s"));

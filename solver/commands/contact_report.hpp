@@ -6,7 +6,7 @@
 #include "case/case.hpp"
 #include "model/model.hpp"
 
-/// What `check` says of contact beside overlaps.
+/// Report of `check` on contact, overlaps excepted.
 namespace breccia {
 
 /// A line for each group with a law: H, m, of its finest body, the stiffness penalty/H, Pa/m, of its laws, and the

@@ -13,7 +13,7 @@
 namespace breccia {
 namespace {
 
-/// MPI starts processes of its own and ParaView's adaptor is loaded in 256 KiB, not in 192; twice that is asked for.
+/// MPI starts processes of its own and ParaView's adaptor is loaded in 256 KiB, not in 192; twice that is required.
 constexpr rlim_t kLeastStack = rlim_t{512} << 10;
 /// What systems give by default.
 constexpr rlim_t kUsualStack = rlim_t{8} << 20;

@@ -4,10 +4,10 @@
 
 namespace breccia {
 
-/// Raises the limit of the stack as far as allowed, where it is low. @return  whether that does, else what to tell
+/// Raises a low limit of the stack as far as allowed. @return  empty, or the message if the limit remains too low
 [[nodiscard]] std::string stack_problem();
 
-/// Throws InputError for variables of the environment that are ours and say nothing that we know.
+/// Throws InputError for unknown values of Breccia's environment variables.
 void check_environment();
 
 }  // namespace breccia

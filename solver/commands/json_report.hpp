@@ -9,7 +9,7 @@
 #include "mesh/finish.hpp"
 #include "model/model.hpp"
 
-/// What `check`, `mesh` and `schema` say, for programs: one JSON object, numbers in SI, ending with a line feed.
+/// Reports of `check`, `mesh` and `schema` for programs: one JSON object, numbers in SI, ending with a line feed.
 namespace breccia {
 
 /// title and report in words, elements, nodes, bodies, joints, groups; end, stable_step and step, s; of RunEstimate
@@ -25,8 +25,8 @@ namespace breccia {
 [[nodiscard]] std::string joints_json(const Model& model);
 
 /// Source, elements, nodes, bodies, groups, repairs, the quality of every element in ten bins, and the report in words.
-/// @param faces  null, or those of each surface group, told as 4 * element + side below `faces`, with the places of the
-/// nodes of each curve and point below `places`, m
+/// @param faces  null, or those of each surface group, written as 4 * element + side below `faces`, with the positions
+/// of the nodes of each curve and point below `places`, m
 [[nodiscard]] std::string mesh_json(const FinishedMesh& made,
                                     const std::vector<std::vector<Topology::Face>>* faces = nullptr);
 
@@ -38,8 +38,8 @@ namespace breccia {
 /// allowed in words.
 [[nodiscard]] std::string schema_json();
 
-/// Runs `work`. What is wrong with the case or the mesh is printed as {"problems": [...]} with file, line, key, what,
-/// allowed, given and text of each, and 2 returned; others go on.
+/// Runs `work`. Problems of the case or the mesh are printed as {"problems": [...]} with file, line, key, what,
+/// allowed, given and text of each, and 2 is returned; other errors propagate.
 int or_problems(const std::function<int()>& work);
 
 }  // namespace breccia

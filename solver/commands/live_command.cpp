@@ -88,7 +88,7 @@ void keep_on_this_machine() {
   set("OMPI_MCA_btl", "self,vader");
 }
 
-/// Throws OutputError when another program listens at the port already, of which ParaView would say nothing.
+/// Throws OutputError when another program listens at the port already, which ParaView would not report.
 void demand_free(int port) {
   const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const int yes = 1;
@@ -100,8 +100,7 @@ void demand_free(int port) {
   const int why = errno;
   ::close(listener);
   if (!is_free)
-    throw output_error("port " + std::to_string(port),
-                       "ParaView cannot listen there; insitu.live.address says where it does", why);
+    throw output_error("port " + std::to_string(port), "ParaView cannot listen there; set insitu.live.address", why);
 }
 
 /// Whether an X server listens at a socket of this machine. @param abstract  a name without a file
@@ -131,7 +130,7 @@ void demand_display() {
                             "one of a desktop or of ssh -X; or xvfb-run before the command", display});
 }
 
-/// What the view is told of the run.
+/// Data of the run for the view.
 void describe(const case_::Case& input, int port) {
   const InSituConfig config(input, ".", {});
   set("BRECCIA_LIVE_PORT", std::to_string(port));

@@ -26,14 +26,14 @@ namespace {
 /// A geometry that has no case yet: meshed with all defaults.
 case_::Case case_of_geometry(const MeshCommand& asked) {
   if (!asked.overrides.empty() || !asked.folder.empty())
-    throw InputError(Problem{asked.case_file.string(), 0, "", "is no case file: a geometry is meshed as it is",
+    throw InputError(Problem{asked.case_file.string(), 0, "", "is no case file: a geometry is meshed without a case",
                              "neither --set nor -o, which need a case.toml with mesh.file", ""});
   case_::Case input;
   input.mesh.file = asked.case_file;
   return input;
 }
 
-/// Not a case: of a kind that is read, or of one about which there is something to say.
+/// Not a case: of a supported kind, or of one with a specific message.
 bool is_geometry(const std::filesystem::path& file) {
   return geometry_file(file) != GeometryFile::unknown || !remedy_for(file).empty();
 }
@@ -60,7 +60,7 @@ void refuse_frames_of_run(const std::filesystem::path& folder) {
     throw OutputError(Problem{folder.string(), 0, "", "these are the frames of a run", "another folder (-o)", ""});
 }
 
-/// A geometry that is given is told of without a case, which may have mistakes elsewhere.
+/// A given geometry is reported without a case, which may have other errors.
 std::string parameters_of(const MeshCommand& asked) {
   if (geometry_file(asked.case_file) != GeometryFile::unknown) return parameters_json(asked.case_file);
   return parameters_json(

@@ -4,8 +4,7 @@
 
 namespace breccia {
 
-/// Makes a case one that is only shown: a file that takes more than a minute to read is given up, unless the case
-/// itself says how long it may take.
+/// Prepares a case for display only: reading a file is aborted after a minute, unless the case sets a time limit.
 inline void limit_preview(case_::Case& input) {
   constexpr double kPreviewSeconds = 60;
   if (input.mesh.time_limit == 0) input.mesh.time_limit = kPreviewSeconds;

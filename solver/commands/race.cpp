@@ -24,8 +24,8 @@ constexpr int kRounds = 3;
 /// A lap whose length is not given: see race_case.
 constexpr std::int64_t kSearches = 10, kFewestSteps = 50;
 constexpr double kAllLaps = 60;  ///< s
-/// Steps between two looks at the clock, which all ranks take together.
-constexpr std::int64_t kStepsBetweenLooks = 10;
+/// Steps between two checks of the wall time, by all ranks together.
+constexpr std::int64_t kStepsBetweenChecks = 10;
 constexpr std::int64_t kMostPieces = 1000;  ///< of a lap (TimingSegments)
 /// Points times contactors of a rank up to which all against all may race: some 60 ms a search, at 6 ns a pair.
 constexpr double kSmallEnough = 1e7;
@@ -85,7 +85,7 @@ class Race {
     if (driver.over()) throw starts_too_late();
     choose_algorithms(communicator_.max(pairs_of(partition)));
     result_.start = partition.state().clock.time;
-    looks_ = driver.looks();
+    schedule_ = driver.schedule();
     start_ = partition.snapshot();
     return true;
   }
@@ -159,7 +159,7 @@ class Race {
       if (steps >= kFewestSteps &&
           partition.state().counters.searches - start_.state.state.counters.searches > kSearches)
         return true;
-      return steps % kStepsBetweenLooks == 0 && communicator_.max(seconds_since(started_)) > most;
+      return steps % kStepsBetweenChecks == 0 && communicator_.max(seconds_since(started_)) > most;
     };
     started_ = WallClock::now();
     const Racer own{input_.detection.algorithm, input_.detection.buffer, true};
@@ -198,7 +198,7 @@ class Race {
     as_raced.detection.algorithm = racer.algorithm;
     as_raced.detection.buffer = racer.buffer;
     Partition partition(as_raced, communicator_, start_);
-    StageDriver driver(as_raced, partition, start_.stage, looks_);
+    StageDriver driver(as_raced, partition, start_.stage, schedule_);
     communicator_.barrier();
     TimingSegments pieces(partition, piece_);
     std::int64_t steps = 0;
@@ -237,7 +237,7 @@ class Race {
         {fmt::format("lap {} of {}: {}", laps_ + 1, all, racer.name()), done / all, seconds_since(started_)});
   }
 
-  /// Results never depend on how contact is looked for.
+  /// Results never depend on the contact search.
   void check_state(const Racer& racer, const std::string& hash) {
     if (result_.state_hash.empty()) {
       first_ = racer.name();
@@ -252,7 +252,7 @@ class Race {
   RaceProgress& progress_;
   Communicator communicator_;
   Snapshot start_;
-  StepLooks looks_;  ///< of the driver at the start
+  StepSchedule schedule_;  ///< of the driver at the start
   std::vector<case_::DetectionAlgorithm> algorithms_;
   std::vector<RaceEntry> entries_;
   std::vector<TimingSegments> least_;  ///< (entries) of all laps

@@ -21,7 +21,7 @@ struct RaceSettings {
   std::int64_t steps = 0;                             ///< length of a lap; 0 and no time: chosen (race_case)
 };
 
-/// One way to look for contact.
+/// One search algorithm with its settings.
 struct Racer {
   case_::DetectionAlgorithm algorithm;
   double buffer = 0;  ///< m; 0: "auto"
@@ -67,10 +67,10 @@ struct RaceResult {
 /// Runs the case from the same state to the same step with every algorithm and buffer, and compares what that costs.
 ///
 /// The case is run once to the start, and its state kept. A lap rebuilds the model from that state and steps it,
-/// without output, budgets and detection.verify; ranks share the work as they did at the start. The first lap, the
-/// case's own, warms the machine, tells how large an automatic buffer is, and counts for nothing; then all race in
-/// turn, three times, to and fro, so that none is always first. Unless the settings give its length a lap lasts for
-/// ten searches of the case's own setting and at least fifty steps, or for as long as all laps fit into a minute; where
+/// without output, budgets and detection.verify; ranks share the work as they did at the start. The first lap, with the
+/// settings of the case, warms up caches, determines the automatic buffer, and is discarded; then all take turns three
+/// times, in alternating order, so that none is always first. Unless the settings give its length a lap lasts for ten
+/// searches of the case's own setting and at least fifty steps, or for as long as all laps fit into a minute; where
 /// rebuilding takes so long that they do not, there are fewer rounds than three. No lap goes beyond the end of the
 /// case; time.max_steps binds runs only.
 ///

@@ -9,7 +9,7 @@ namespace breccia {
 namespace {
 
 /// A gain of less than this is not worth a line in the case file.
-constexpr double kWorthIt = 0.03;
+constexpr double kWorthwhileGain = 0.03;
 
 double step_s(const RaceResult& result, const Lap& lap) { return lap.lasting() / static_cast<double>(result.steps); }
 
@@ -43,7 +43,7 @@ std::string verdict(const RaceResult& result) {
     const double gain = 1.0 - best.least.lasting() / own->least.lasting();
     if (own == result.entries.begin()) {
       text += ", as in the case";
-    } else if (gain < kWorthIt) {
+    } else if (gain < kWorthwhileGain) {
       text += fmt::format("; the case's own takes only {:.1f} % longer", 100 * (1.0 / (1.0 - gain) - 1.0));
     } else {
       text += fmt::format(", a step takes {:.1f} % less time than as in the case", 100 * gain);

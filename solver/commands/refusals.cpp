@@ -29,7 +29,7 @@ void refuse_contradictions(const case_::Case& input, const std::vector<Constrain
   for (const ConstraintConflict& c : conflicts) {
     if (!c.whole) continue;
     problems.push_back({input.file.string(), c.later->origin.line, c.later->origin.key,
-                        fmt::format("contradicts {}: all its {} nodes are asked for another motion along {} here",
+                        fmt::format("contradicts {}: all its {} nodes have another motion along {} here",
                                     name_of(*c.earlier), c.of_earlier, "xyz"[c.axis]),
                         fmt::format("one of them without {}", "xyz"[c.axis]),
                         fmt::format("{} of \"{}\"", kind_of(*c.later), c.later->group)});

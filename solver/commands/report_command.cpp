@@ -59,7 +59,7 @@ int report_command(const ReportCommand& asked) {
   const report::RunRecord run = report::read_run(asked.run);
   report::Figures figures;
   if (asked.no_pictures)
-    figures.missing = "not asked for (--no-pictures)";
+    figures.missing = "not requested (--no-pictures)";
   else
     figures = report::draw_run(asked.run, run.up, std::chrono::seconds(asked.time_limit));
   const std::string made = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What may differ in a run that goes on: nothing that changes a result.
+/// Keys that may differ in a resumed run: those without effect on results.
 constexpr std::array<std::string_view, 4> kFreeKeys{"domains.", "detection.", "checkpoint.", "time.max_steps"};
 
 InputError refused(const std::string& where, const std::string& what, const std::string& allowed,
@@ -42,7 +42,7 @@ std::vector<Problem> with_way_around(std::vector<Problem> problems) {
   for (Problem& problem : problems) {
     if (problem.key.starts_with("insitu"))
       problem.allowed +=
-          (problem.allowed.empty() ? "" : "; or ") + std::string("--without-insitu, to go on without it");
+          (problem.allowed.empty() ? "" : "; or ") + std::string("--without-insitu, to continue without it");
   }
   return problems;
 }
@@ -51,7 +51,7 @@ void check_overrides(const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) {
     const auto is_free = [&](std::string_view key) { return text.starts_with(key); };
     if (std::none_of(kFreeKeys.begin(), kFreeKeys.end(), is_free))
-      throw refused("--set", "this would change the results of a run that goes on",
+      throw refused("--set", "this would change the results of a continued run",
                     "keys of [domains], [detection] and [checkpoint], and time.max_steps", text);
   }
 }
@@ -99,7 +99,7 @@ void check_later_end(double until) {
     throw refused("--until", "is out of range", "a time in s " + allowed.text(), quantity_text(until, "s"));
 }
 
-/// The case of the checkpoint, with a later end if that is asked for.
+/// The case of the checkpoint, with a later end if requested.
 case_::Case case_of(const Checkpoint& from, const fs::path& file, std::vector<std::string> overrides, double until,
                     ResumeOptions& options) {
   case_::Case input = case_::read_case_text(from.case_text, file, overrides, case_::MeshFile::may_be_gone);
@@ -169,7 +169,7 @@ int go_on(const ResumeCommand& asked, const Communicator& world) {
   });
   if (complete) {
     if (world.is_root())
-      print_lines(fmt::format("{} is complete at {}; --until TIME goes on to a later end\n", run.string(),
+      print_lines(fmt::format("{} is complete at {}; --until TIME continues to a later end\n", run.string(),
                               quantity_text(from.model.clock.time, "s")));
     return 0;
   }

@@ -30,7 +30,7 @@ namespace {
 void warn_of_remote_viewer(const case_::InSitu& insitu) {
   if (!insitu.live || case_::is_loopback(case_::host_and_port(insitu.live->address)->first)) return;
   print_warning("the run is offered to " + insitu.live->address +
-                ", another machine; what is sent there is neither encrypted nor checked");
+                ", another machine; data are sent without encryption or authentication");
 }
 
 /// Where the results come from, with hashes of all files that went in.

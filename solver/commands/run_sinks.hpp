@@ -16,7 +16,7 @@ namespace breccia {
 [[nodiscard]] std::vector<std::unique_ptr<Sink>> run_sinks(const case_::Case& input, const RunFolder& folder,
                                                            ProgressMode progress, const Communicator& world);
 
-/// What the end of a run tells on the terminal.
+/// Final report of a run on the terminal.
 void print_results(const Summary& summary, const RunFolder& folder, ProgressMode progress, const Communicator& world);
 
 }  // namespace breccia

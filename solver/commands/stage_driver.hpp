@@ -15,14 +15,14 @@ class StageDriver {
   StageDriver(const case_::Case& input, Partition& partition) : input_(input), partition_(partition) {
     steps_.emplace(input_, input_.stages[stage_], partition_);
   }
-  /// Goes on from a snapshot. @param looks  of the driver that it was taken of
-  StageDriver(const case_::Case& input, Partition& partition, std::size_t stage, const StepLooks& looks)
+  /// Continues from a snapshot. @param schedule  of the driver of the snapshot
+  StageDriver(const case_::Case& input, Partition& partition, std::size_t stage, const StepSchedule& schedule)
       : input_(input), partition_(partition), stage_(stage) {
-    steps_.emplace(input_, input_.stages[stage_], partition_, looks);
+    steps_.emplace(input_, input_.stages[stage_], partition_, schedule);
   }
 
   [[nodiscard]] bool over() const { return steps_->over() && stage_ + 1 == input_.stages.size(); }
-  [[nodiscard]] const StepLooks& looks() const { return steps_->looks(); }
+  [[nodiscard]] const StepSchedule& schedule() const { return steps_->schedule(); }
 
   /// One step; a stage that ends with it is followed by the next one. Collective. @pre not over
   void step(bool stop) {

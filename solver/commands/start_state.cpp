@@ -63,7 +63,7 @@ std::string words_of(const std::vector<Choice>& choices) {
   return words;
 }
 
-/// The checkpoint that is asked for by its time or step, from a folder.
+/// The checkpoint of the requested time or step, from a folder.
 fs::path chosen(const fs::path& case_file, const case_::Start& start, const fs::path& folder) {
   for (const CheckpointEntry& entry : checkpoints_in(folder)) {
     if (start.step > 0 && entry.step == start.step) return entry.file;
@@ -80,8 +80,7 @@ fs::path chosen(const fs::path& case_file, const case_::Start& start, const fs::
   if (start.step == 0 && nearest != choices.end() && is_close(*nearest)) return nearest->file;
   const std::string given = start.step > 0 ? std::to_string(start.step) : quantity_text(start.at, "s");
   refuse(case_file, start, start.step > 0 ? "step" : "at",
-         "the run has no checkpoint of that" +
-             (unreadable.empty() ? "" : ", apart from what cannot be read: " + unreadable),
+         "the run has no checkpoint of that" + (unreadable.empty() ? "" : ", unreadable ones excepted: " + unreadable),
          choices.empty() ? "none can be read" : words_of(choices), given);
 }
 
@@ -115,7 +114,7 @@ fs::path checkpoint_of(const fs::path& case_file, const case_::Start& start) {
            "the folder of a run with checkpoints/step_*.h5, or one of these files", start.from.string());
   if (start.step > 0 || start.at > 0) return chosen(case_file, start, folder);
   if (const std::string holder = holder_of(start.from); !holder.empty())
-    refuse(case_file, start, "from", "this run goes on, its last state is yet to come: " + holder,
+    refuse(case_file, start, "from", "this run is in progress and has no last state yet: " + holder,
            "start.at, start.step or one of its checkpoints, or this folder when that run has ended",
            start.from.string());
   return all.front().file;
@@ -168,8 +167,8 @@ void check_stages(const case_::Case& input, const Clock& clock) {
   }
   throw InputError(
       case_::problem_at(input, first.origin, "end",
-                        "the state that the run starts from is later than the end of this stage: time goes on "
-                        "counting there",
+                        "the state that the run starts from is later than the end of this stage: time is counted from "
+                        "that run",
                         "later than " + quantity_text(clock.time, "s"), quantity_text(first.end, "s")));
 }
 

@@ -15,16 +15,16 @@
 
 namespace breccia {
 
-/// The state that a case with [start] goes on from.
+/// The state from which a case with [start] begins.
 struct StartState {
   std::filesystem::path file;  ///< the checkpoint
   Checkpoint checkpoint;
   case_::ParentCase parent;
 };
 
-/// Finds, reads and verifies what [start] names; nullopt: the case starts at rest. Another checkpoint than the one
-/// asked for is never taken. Collective. Throws InputError on all ranks: no such run, none of that time or step,
-/// damaged or foreign files.
+/// Finds, reads and verifies what [start] names; nullopt: the case starts at rest. No other checkpoint than the
+/// requested one is used. Collective. Throws InputError on all ranks: no such run, none of that time or step, damaged
+/// or foreign files.
 [[nodiscard]] std::optional<StartState> read_start_state(const std::filesystem::path& case_file,
                                                          const std::vector<std::string>& overrides,
                                                          const Communicator& world);
@@ -35,7 +35,7 @@ struct StartState {
                                        const std::vector<std::string>& overrides,
                                        const std::optional<StartState>& start);
 
-/// Constraints that ask for different motions of the same nodes of the state, as constraint_conflicts. Collective.
+/// Constraints with different motions for the same nodes of the state, as constraint_conflicts. Collective.
 [[nodiscard]] std::vector<ConstraintConflict> conflicts_of(const case_::Case& input, const StartState& start,
                                                            const Communicator& world);
 
@@ -50,12 +50,12 @@ void refuse_folder_of_state(const std::filesystem::path& results, const StartSta
 [[nodiscard]] std::vector<Provenance::Input> inputs_of_started(const std::filesystem::path& case_file,
                                                                const case_::Case& input, const Checkpoint& checkpoint);
 
-/// The parents of a run that goes on from a checkpoint: that one and its own.
+/// The parents of a run that starts from a checkpoint: its run and the parents of that.
 [[nodiscard]] std::vector<Provenance::Parent> with_parent(const std::filesystem::path& file,
                                                           const Checkpoint& checkpoint);
 
-/// The root's files, on all ranks: a run that goes on writes and removes checkpoints, so that ranks that looked by
-/// themselves might choose differently. Collective.
+/// The root's files, on all ranks: a run in progress writes and removes checkpoints, so that ranks that search
+/// separately might choose differently. Collective.
 void of_root(std::vector<std::filesystem::path>& files, const Communicator& world);
 
 /// Whose state it is: "the state of step 1200 at 2.4 s of FILE".

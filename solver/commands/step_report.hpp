@@ -8,7 +8,7 @@
 
 namespace breccia {
 
-/// What can be told of the time step before the first one.
+/// Report on the time step before the first one.
 struct StepReport {
   double limit = 0;   ///< s, stable step at the start
   double dt = 0;      ///< s, that the run begins with

@@ -16,12 +16,12 @@ namespace breccia {
 class TimingSegments {
  public:
   /// @param length  of a piece, steps
-  TimingSegments(const Partition& partition, std::int64_t length) : length_(length), before_(look(partition)) {}
+  TimingSegments(const Partition& partition, std::int64_t length) : length_(length), before_(totals(partition)) {}
 
   /// After every step.
   void step(const Partition& partition) {
     if (steps_++ % length_ == 0) pieces_.push_back({});
-    const Looked now = look(partition);
+    const Totals now = totals(partition);
     Piece& piece = pieces_.back();
     const double wall = now.wall - before_.wall, search = now.search - before_.search,
                  contact = now.contact - before_.contact;
@@ -56,11 +56,11 @@ class TimingSegments {
  private:
   enum Kind : std::size_t { kWall, kRest, kSearch, kFull, kContact, kKinds };
   using Piece = std::array<double, kKinds>;
-  struct Looked {
+  struct Totals {
     double wall, search, contact;
     std::int64_t searches;
   };
-  static Looked look(const Partition& partition) {
+  static Totals totals(const Partition& partition) {
     const PhaseTimer& timer = partition.domain().timer;
     return {std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(),
             timer.seconds(Phase::search), timer.seconds(Phase::contact), partition.state().counters.searches};
@@ -72,7 +72,7 @@ class TimingSegments {
   }
 
   std::int64_t length_, steps_ = 0;
-  Looked before_;
+  Totals before_;
   std::vector<Piece> pieces_;
 };
 

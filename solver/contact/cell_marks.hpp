@@ -8,7 +8,7 @@
 
 namespace breccia {
 
-/// Cells of a region, some of them marked: tells cheaply which boxes may come near to any of many others.
+/// Cells of a region, some of them marked: a cheap test for boxes that may come near to any of many others.
 class CellMarks {
  public:
   /// @param cell  m, > 0: edge of the cells; longer where there would be more than kMostCells along an axis

@@ -84,7 +84,7 @@ void ContactSearch::verify(const NodalState& nodes) const {
                std::to_string(local.element_of_slot[at(slot)]);
       };
       DEMAND(found != contact_.couples.end() && *found == couple, what() + " but they are no couple");
-      DEMAND(!(contact_.travel < found->apart_until), what() + " but their couple is held to be apart");
+      DEMAND(!(contact_.travel < found->apart_until), what() + " but their couple is marked as separated");
     }
   }
 }

@@ -43,12 +43,12 @@ class ContactSearch {
   [[nodiscard]] double search_reach(double step_length) const { return search_.reach(step_length); }
   /// Box around the elements on which this rank evaluates forces.
   [[nodiscard]] Extent extent(const Field<double>& position) const;
-  /// Where the case asks for it: throws InternalError naming the pair if a pair touches and is no couple.
+  /// If the case enables detection.verify: throws InternalError with the pair if a pair touches and is no couple.
   void verify(const NodalState& nodes) const;
   [[nodiscard]] bool verifies() const { return verify_; }
 
-  /// For one of several ranks, which receive each other's speeds a step late. From now on only the couples of
-  /// KeptCouples are kept. @param relevant  (num_slots) 1: forces on it are evaluated here
+  /// For one of several ranks, which receive each other's speeds with a delay of one step. From now on only the couples
+  /// of KeptCouples are kept. @param relevant  (num_slots) 1: forces on it are evaluated here
   /// @pre before the first search
   void restrict_to(std::vector<std::uint8_t> relevant);
   /// Marks the slots of all points and contactors in couples. @param marks  (num_slots)

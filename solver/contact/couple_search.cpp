@@ -27,8 +27,8 @@ CoupleSearch::CoupleSearch(const ContactSearchParams& search, const ContactSurfa
       size_(contactor_size) {}
 
 void CoupleSearch::expect_late_speeds() {
-  constexpr int kLate = 1;
-  moved_ = DisplacementWatch(kLate);
+  constexpr int kSpeedDelay = 1;
+  moved_ = DisplacementWatch(kSpeedDelay);
 }
 
 bool CoupleSearch::due(const NodalState& nodes, const KnownMotion& motion, const Communicator& communicator) {

@@ -37,7 +37,7 @@ class CoupleSearch {
   CoupleSearch(const ContactSearchParams& search, const ContactSurface& surface, const ContactState& contact,
                double contactor_size);
 
-  /// Speeds of other ranks become known a step late. @pre before the first search
+  /// Speeds of other ranks are received with a delay of one step. @pre before the first search
   void expect_late_speeds();
   /// Whether a search is due; to be called once a step. Collective.
   [[nodiscard]] bool due(const NodalState& nodes, const KnownMotion& motion, const Communicator& communicator);
@@ -52,7 +52,7 @@ class CoupleSearch {
 
   [[nodiscard]] bool searched() const { return searched_; }
   [[nodiscard]] double buffer() const { return buffer_; }  ///< m, of the last search
-  /// m: every search, with whatever buffer, finds the points that are so near to the box of a contactor.
+  /// m: every search, with any buffer, finds the points within this distance of the box of a contactor.
   [[nodiscard]] double always_found() const;
   [[nodiscard]] double contactor_size() const { return size_; }  ///< m, mean
   /// Share, 0..1, of what nodes may move after the last search that they have moved. @pre searched(). Collective.

@@ -17,25 +17,25 @@ namespace breccia {
 [[nodiscard]] double relative_displacement(const LocalMesh& local, const Field<double>& now, const Field<double>& then,
                                            const Communicator& communicator);
 
-/// What is known of the motion in a step, m.
+/// Known motion in a step, m.
 struct KnownMotion {
-  double length = 0;      ///< the furthest that a node of any rank has moved in a step: the last, or one told late
-  double unforeseen = 0;  ///< what nodes may have moved, in the steps not told yet, beyond twice as far in each
+  double length = 0;      ///< largest motion of a node of any rank in the last step, or in an earlier one if received
+                          ///< with delay
+  double unforeseen = 0;  ///< allowance for motion beyond twice that in each of the steps not received yet
 };
 
-/// Watches relative_displacement() against an allowance, and rarely has to look: in between it is bounded by the sum of
+/// Compares relative_displacement() with an allowance; between evaluations, which are rare, it is bounded by the sum of
 /// the largest speeds times the step.
 ///
-/// On several ranks the largest speed becomes known some steps late; each step not known yet counts as twice the last
-/// known. What nodes may move beyond that belongs to `ahead`; a run in which they move further still ends
-/// (domains/motion_limit.hpp).
+/// On several ranks the largest speed is received some steps later; each step not received counts as twice the last
+/// one. Larger motion is part of `ahead`; a run in which nodes move further still ends (domains/motion_limit.hpp).
 class DisplacementWatch {
  public:
-  /// @param late  steps by which lengths are told late
+  /// @param late  delay of the lengths, in steps
   explicit DisplacementWatch(int late = 0) : late_(late) {}
   /// Positions are those of `then` from now on.
   void restart() { start_from(0); }
-  /// After every step. @param length  m, at least as far as any node has moved in the step `late` before it
+  /// After every step. @param length  m, at least the largest motion of any node in the step `late` steps before
   void step(double length) {
     length_ = length;
     if (before_ > 0) {
@@ -56,9 +56,9 @@ class DisplacementWatch {
   }
 
   int late_;
-  int before_ = 0;     ///< lengths still to be told of steps that the bound holds already
+  int before_ = 0;     ///< lengths not received yet of steps that the bound includes already
   double bound_ = 0;   ///< m
-  double length_ = 0;  ///< m, told last
+  double length_ = 0;  ///< m, received last
 };
 
 }  // namespace breccia

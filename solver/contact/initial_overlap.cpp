@@ -104,7 +104,7 @@ std::vector<Hit> hits_of(const Model& model, const std::vector<Place>& places) {
   return hits;
 }
 
-/// Free surfaces of volumes, each built when it is first asked for.
+/// Free surfaces of volumes, each built at its first request.
 class Surfaces {
  public:
   explicit Surfaces(const Model& model) : mesh_(model.mesh), trees_(num_volumes(model.mesh)) {

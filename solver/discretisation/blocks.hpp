@@ -17,7 +17,7 @@ inline constexpr Index kLanes = 8;
 
 /// Node of corner c of an element that owns its four nodes. With this numbering the nodal fields of element block k are
 /// the 96 doubles [corner][axis][lane] from 96 k on, so the same array serves kernels that sweep blocks of elements and
-/// everyone who asks for one node.
+/// access to single nodes.
 [[nodiscard]] constexpr Index own_corner_node(Index element, int corner) {
   return (element / kLanes) * (4 * kLanes) + corner * kLanes + element % kLanes;
 }

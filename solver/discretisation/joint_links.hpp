@@ -16,8 +16,8 @@ namespace breccia {
                    : kFaceCorners[static_cast<std::size_t>(code - 12)][static_cast<std::size_t>(i)];
 }
 
-/// The intact joints as the element-centric sweep sees them: each own-node element looks across its four faces and
-/// computes its own side of the joint. Elastic joints need nothing but k A0 / 3 and the neighbour's corners.
+/// The intact joints for the element-centric sweep: each own-node element evaluates its own side of the joints on its
+/// four faces. Elastic joints need only k A0 / 3 and the neighbour's corners.
 ///
 /// link = 16 slot + code. Codes 0..11 are FaceLink codes of an intact joint. Codes 12 + f point back at the element's
 /// own face f (opening zero, no force): free faces, joints on the active list, joints handed over to contact, padding.

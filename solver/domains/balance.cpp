@@ -9,11 +9,11 @@
 namespace breccia {
 namespace {
 
-/// An element that shares its nodes costs this much of one that owns them (no joints to look across).
+/// An element that shares its nodes costs this much of one that owns them (no joints to evaluate).
 constexpr double kSharedNodes = 1.0 / 3;
-/// What the last look counts for in a rank's slowness: others on the machine come and go.
+/// Weight of the last evaluation in a rank's slowness: other processes on the machine come and go.
 constexpr double kNewest = 0.25;
-/// A look that finds a rank slower or faster than this at the same work has met a stall, and counts as this.
+/// Limit of the measured slowness: larger values are due to a stall.
 constexpr double kMostSlow = 2;
 
 /// How many elements (in cost), active joints and couples a rank has to compute.
@@ -50,7 +50,7 @@ double Balance::look(const Domain& domain) {
   seen_ = work(domain);
   RankLoad all{};
   const auto shares = domain.exchange.communicator().all_gather(std::span<const RankLoad>(&mine, 1));
-  std::vector<double> busy;  // s, of each rank since the last look
+  std::vector<double> busy;  // s, of each rank since the last evaluation
   for (const std::vector<RankLoad>& share : shares) {
     for (std::size_t k = 0; k < 3; ++k) {
       all.seconds[k] += share[0].seconds[k];

@@ -26,7 +26,7 @@ Vec3 centroid(const ElementRecord& element) {
 /// Where elements count as lying, mine among those of all ranks.
 std::vector<Vec3> places(const Communicator& communicator, const Records& mine, std::span<const Vec3> centroid,
                          double reach) {
-  std::vector<GlobalId> ids;  // by themselves: a search through the records misses the cache at every look
+  std::vector<GlobalId> ids;  // by themselves: a search through the records misses the cache at every access
   for (const ElementRecord& element : mine.elements) ids.push_back(element.id);
   const auto place_of = [&](std::size_t e, GlobalId id) {
     const auto near = static_cast<std::ptrdiff_t>(e) + (id - ids[e]);  // as long as all elements are on one rank

@@ -35,9 +35,9 @@ struct Piece {
 /// by more than allowed_motion() since, beside what all have moved together, that is enough for the same bits as on one
 /// rank:
 /// - what touches an original then is within twice that motion, the margin;
-/// - a point that comes to an original brings the history of what it touched on its way, which counts from the last
-///   search: then its rank told what it touched. Since then neither it nor any element has moved by more than half
-///   the search's buffer, so that all it touched is within two buffers more;
+/// - a point that comes to an original brings its contact history since the last search, when its rank sent what it
+///   touched. Since then neither it nor any element has moved by more than half the buffer of the search, so that all
+///   it touched is within two buffers more;
 /// - around such elements corner clusters are complete, since what is bonded to them at a vertex is no further away
 ///   than the size of these: a ring, or two around shared nodes, where what touches any element of a node counts;
 /// - the stable step of contact on shared nodes (contact_step.cpp) comes from the faces at the nodes of an original,
@@ -65,11 +65,11 @@ struct Reach {
                                             std::span<const std::array<GlobalId, 4>> vertices, std::vector<double> size,
                                             const Reach& reach);
 
-/// What the case asks for.
+/// Settings of the case.
 [[nodiscard]] DomainSpec domain_spec(const case_::Case& input);
 
 /// Gives every element to the domain it lies in and every rank the proxies it needs. Collective.
-/// @param domains a grid is settled by the first call
+/// @param domains a grid is fixed by the first call
 /// @param mine    this rank's originals, in their present state; on the first call all elements on one rank
 /// @param weight  (elements of mine) relative cost
 /// @param sizes   of all elements, in their present state

@@ -27,7 +27,7 @@ void start_state(const Model& model, State& state) {
   if (memory) state.elements.allocate(kMaterialMemory, local.num_slots);
 }
 
-/// What a viscosity has dissipated that an earlier run had and this one has not goes on counting.
+/// Dissipation by a viscosity of an earlier run that this one lacks remains accounted.
 void keep_earlier_work(const Records& records, const LocalMesh& local, State& state) {
   const auto done = [](const ElementRecord& record) { return record.numbers[first_number(kViscousWork)] != 0; };
   if (state.elements[kViscousWork].empty() && std::any_of(records.elements.begin(), records.elements.end(), done))

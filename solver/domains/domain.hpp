@@ -26,7 +26,7 @@ struct EnergySample {
   GlobalId worst_element = -1;  ///< with the largest strain energy density; -1: none yet
 };
 
-/// Work space of a step: nothing in it outlives the step and the look at it for the history.
+/// Work space of a step: valid during the step and its sample for the history.
 struct StepScratch {
   explicit StepScratch(const LocalMesh& local) : forces(local.num_own_blocks(), local.num_nodes) {}
 
@@ -40,7 +40,7 @@ struct StepScratch {
   Field<double> velocity_before;             ///< m/s, v_(n-1/2) of the last step with a sample
 };
 
-/// What goes on when a rank's elements change: the model's rows of the state, and what was measured.
+/// Data that continue when the elements of a rank change: the model's rows of the state, and measurements.
 struct Continuation {
   State state;  ///< fields of the model only (copy_model_fields)
   PhaseTimer timer;
@@ -52,7 +52,7 @@ struct Continuation {
 struct Domain {
   /// Everything at rest. @pre model outlives this object and does not change
   Domain(const Model& model, const ContactSearchParams& search);
-  /// Goes on where others stopped. @param records  of the elements of model.mesh
+  /// Continues from the state of other domains. @param records  of the elements of model.mesh
   Domain(const Model& model, const ContactSearchParams& search, const Records& records, const Continuation& from);
   Domain(const Domain&) = delete;
   Domain& operator=(const Domain&) = delete;
@@ -77,7 +77,7 @@ struct Domain {
   StepScratch scratch;
 };
 
-/// Joints that the sweep does not look after join the active list as they are before their first evaluation; before the
+/// Joints that the sweep does not evaluate join the active list as they are before their first evaluation; before the
 /// first step of a model that has just been divided.
 void start_joints(Domain& domain);
 
@@ -105,11 +105,11 @@ void activate_joints(const Model& model, std::vector<std::size_t>& crossed, Stat
 /// Receives what was sent at the end of the last step; after this no more steps. Collective.
 void conclude(Domain& domain);
 
-/// The model's rows of the state as they go on elsewhere: the work of the stage's loads and of gravity so far is past.
-/// Between two steps; the domain stays as it is. @pre a stage has begun. O(elements)
+/// The model's rows of the state for continuation elsewhere: the work so far of the stage's loads and of gravity is
+/// accounted. Between two steps; the domain is unchanged. @pre a stage has begun. O(elements)
 [[nodiscard]] State closed_fields(const Domain& domain);
 
-/// Ends the domain: the stage's loads end, and what goes on elsewhere is returned. Collective.
+/// Ends the domain: the stage's loads end, and the data that continue elsewhere are returned. Collective.
 [[nodiscard]] Continuation close(Domain& domain);
 
 }  // namespace breccia

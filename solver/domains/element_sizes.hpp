@@ -19,8 +19,8 @@ struct Sizes {
 };
 [[nodiscard]] Sizes sizes_of_all(const Communicator& communicator, std::span<const double> size);
 
-/// Largest size among the elements up to so many rings away from each of this rank's, itself included, m. Elements
-/// that share a vertex of the mesh are one ring apart, wherever they have moved and whatever has broken. Collective.
+/// Largest size among the elements up to so many rings away from each of this rank's, itself included, m. Elements that
+/// share a vertex of the mesh are one ring apart, regardless of motion and fracture. Collective.
 /// @param vertices  (elements) of their corners, >= 0;  @param size  (elements) m
 /// O(rings elements log elements); a rank sends its vertices to ranks that keep ranges of them.
 [[nodiscard]] std::vector<double> sizes_around(const Communicator& communicator,

@@ -127,7 +127,7 @@ const SharedSlots& Exchange::neighbour(int rank) const {
   return *found;
 }
 
-/// Asks the owners of near proxies for them, by their places among what is shared: the place, or ~place if the position
+/// Requests near proxies from their owners, by their places in the shared list: the place, or ~place if the position
 /// suffices.
 void Exchange::plan_near(const LocalMesh& local, std::span<const std::uint8_t> near,
                          std::span<const std::uint8_t> moving) {

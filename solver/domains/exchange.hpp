@@ -34,9 +34,9 @@ struct SharedSlots {
 /// with the proxies that its forces depend on. On one rank there is nothing to exchange: `alone()`.
 ///
 /// Of its proxies only the near ones are gathered in every step: those that share a joint or a couple with an original,
-/// the former without velocities. Before a search those are that have come near to the originals of the rank; after it,
-/// and when joints that came apart bring elements of two ranks into couples, ranks tell each other what the points of
-/// their elements touch. All functions are collective unless they say otherwise.
+/// the former without velocities. Before a search the proxies near to the originals of the rank are added; after it,
+/// and when broken joints bring elements of two ranks into couples, ranks exchange what the points of their elements
+/// touch. All functions are collective unless stated otherwise.
 class Exchange {
  public:
   Exchange() = default;  ///< alone

@@ -43,7 +43,7 @@ class ContactLook {
 
   /// What contact within `time`, s, adds to all originals.
   [[nodiscard]] std::vector<ContactShare> all(double time) const { return contact_shares(model_, patches_, time); }
-  /// To originals that are asked for.
+  /// To requested originals.
   [[nodiscard]] ContactShares one_by_one(double time) const { return {model_, patches_, time}; }
   [[nodiscard]] const std::vector<std::uint8_t>& open() const { return faces_.open; }
 

@@ -37,8 +37,8 @@ struct StepParts {
 [[nodiscard]] StableStep global_stable_step(const Communicator& communicator, const TimeStep& time_step,
                                             const StepState& state, double steps);
 
-/// Its length alone, s, the very same number, found in less time: who may meet whom is only looked at where that could
-/// still shorten it. Collective. O(elements + patches)
+/// Its length alone, s, bitwise the same, at lower cost: possible contacts are evaluated only where they could still
+/// shorten it. Collective. O(elements + patches)
 [[nodiscard]] double global_step_length(const Communicator& communicator, const TimeStep& time_step,
                                         const StepState& state, double steps);
 

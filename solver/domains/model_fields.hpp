@@ -12,8 +12,8 @@ namespace breccia {
 /// @param part  this rank's rows (closed_fields)
 [[nodiscard]] State whole_fields(const Communicator& communicator, const State& part);
 
-/// What a rank begins with where a run goes on from the whole: the root holds what is summed or listed, the others
-/// nothing of it.
+/// Initial state of a rank when a run continues from the whole model: the root stores sums and lists, the other ranks
+/// none.
 [[nodiscard]] State part_of_whole(const State& whole, bool root);
 
 }  // namespace breccia

@@ -89,7 +89,7 @@ void judge_motion(Domain& domain) {
   const Clock& clock = domain.state.clock;
   const Signals& signals = domain.state.signals;
   const std::int64_t step = signals.fastest_step;
-  // Before the first step a division may already have told what was known then: not yet how long that step is.
+  // Before the first step a division may already have sent the speeds, but not yet the length of that step.
   if (clock.steps > 0 && step <= signals.step_motion.known_step) return;
   const bool last = step == clock.steps - 1;
   const double length = signals.fastest * (clock.steps == 0 ? clock.dt : last ? clock.dt_before : clock.dt_earlier);
@@ -101,7 +101,8 @@ void judge_motion_before_last(Domain& domain) {
   const StepMotion& motion = domain.state.signals.step_motion;
   const std::int64_t step = domain.state.clock.steps - 2;
   if (step <= motion.known_step) return;
-  judge(domain, step, step < 0 ? motion.own : motion.own_before);  // before the first step all go on as they began
+  judge(domain, step,
+        step < 0 ? motion.own : motion.own_before);  // before the first step all move at their initial velocities
 }
 
 namespace {
@@ -124,8 +125,8 @@ namespace {
       "step " + std::to_string(motion.exceeded_step) + ": " + name_of_node(node == kNone ? -1 : -node) + " moves by " +
       number(length) + " m in one step, at " + number(length / dt) + " m/s, " +
       (far ? "more than half the mean size of what may touch (" + number(size) + " m): contacts would be missed"
-           : "much further than any node in the step before: contacts may be found too late") +
-      "; lower time.safety (or time.step), or the penalties, or bring what is driven to its velocity gradually");
+           : "much further than any node in the previous step: contacts may be detected with a delay") +
+      "; lower time.safety (or time.step), or the penalties, or accelerate driven groups gradually");
 }
 
 }  // namespace

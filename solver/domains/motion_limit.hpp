@@ -4,13 +4,13 @@
 
 namespace breccia {
 
-// Ranks learn each other's speeds a step or two late. Contact searches and proxies come in time all the same, and
-// results are the same on any number of ranks, as long as no node moves further in a step n than
+// Ranks receive each other's speeds one or two steps later. Contact searches and proxies are still in time, and results
+// are the same on any number of ranks, as long as no node moves further in a step n than
 //   L_n = min(2 L_(n-1) + r H, H/2),
 // L_(n-1) the furthest motion of any node in the step before, H the mean size of a contactor, and r = kUnforeseen, or
 // kUnforeseenAtStart in the first step of a stage, whose constraints and loads may begin at their full values. Points
-// that move further than H/2 jump over what they should touch. A step in which a node exceeds the limit is an error,
-// the same on any number of ranks (also on one), thrown at the start of the second step after it, when all ranks know.
+// that move further than H/2 may pass a surface undetected. A step in which a node exceeds the limit is an error, the
+// same on any number of ranks (also on one), thrown at the start of the second step after it, when all ranks know.
 // Without contact nothing depends on it.
 inline constexpr double kUnforeseen = 0.005, kUnforeseenAtStart = 0.04;
 
@@ -38,7 +38,7 @@ void judge_motion_before_last(Domain& domain);
 /// Collective if it throws.
 void check_motion(const Domain& domain);
 
-/// After the last step of a run, which no other follows: judges it and the one before it. Collective. Throws likewise.
+/// After the last step of a run: checks this step and the one before it. Collective. Throws likewise.
 /// @pre conclude() has been called
 void check_last_motion(Domain& domain);
 

@@ -245,8 +245,8 @@ void Partition::divide_again() {
   decompose_anew(model_->whole, std::move(mine), weight, close(*domain_));
 }
 
-/// Once ranks have waited for as long as a division takes: whatever the steps to come bring, that costs at most twice
-/// what the best moment would have. A grid stays where it is, whatever its cuboids hold.
+/// Rebalance when accumulated waiting exceeds the cost of a rebalance: at most twice the optimal cost. A grid is fixed,
+/// for any content of its cuboids.
 bool Partition::balancing_pays() {
   if (domain_->state.clock.steps % Balance::kInterval != 0) return false;
   const double lost = balance_.look(*domain_);

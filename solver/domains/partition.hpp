@@ -12,7 +12,7 @@
 
 namespace breccia {
 
-/// The present state of a rank's partition: other partitions can go on from it, with another search or on their own.
+/// The present state of a rank's partition, from which other partitions can continue, also with another search.
 struct Snapshot {
   WholeModel whole;
   Records mine;                ///< the rank's originals
@@ -24,16 +24,16 @@ struct Snapshot {
   bool in_stage = true;   ///< it has begun; false: a stage of another case has ended, or was left
 };
 
-/// A rank's part of the model: its originals and proxies, and everything that is built upon them. When a node has gone
-/// so far that proxies may be missing, or when ranks wait for each other for longer than it takes, elements are given
-/// to domains anew and the partition is rebuilt from what they remember.
+/// A rank's part of the model: its originals and proxies, and everything that is built upon them. When a node has moved
+/// so far that proxies may be missing, or when accumulated waiting exceeds the cost of a new division, elements are
+/// assigned to domains again and the partition is rebuilt from their records.
 class Partition {
  public:
   /// Collective. @param model  on the root, null elsewhere: on several ranks a bare one is enough (build_bare_model)
   /// @pre input outlives this object
   Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> model);
-  /// Goes on where another partition was. Collective. @pre input differs from that partition's in what the elements of
-  /// the snapshot do not depend on: [detection], [domains], and what the table of keys lets change (fixed_by_state)
+  /// Continues from another partition. Collective. @pre input differs from that partition's in what the elements of the
+  /// snapshot do not depend on: [detection], [domains], and what the table of keys lets change (fixed_by_state)
   Partition(const case_::Case& input, const Communicator& communicator, Snapshot from);
 
   [[nodiscard]] Domain& domain() { return *domain_; }
@@ -60,7 +60,7 @@ class Partition {
   void keep_up();
   /// The partition as it is, which ends with it: no more steps. Collective. @pre a stage has begun
   [[nodiscard]] Snapshot snapshot();
-  /// The same in the middle of a run, which goes on. What ranks ask of each other is not in it. Collective, so that the
+  /// The same during a run, which continues. Pending requests between ranks are not included. Collective, so that the
   /// failure of a rank is received: then throws SimulationError on all. @pre a stage has begun
   [[nodiscard]] Snapshot copy() const;
   /// Stable step of the whole model at present under the constraints of the stage. Collective.

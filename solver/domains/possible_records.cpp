@@ -89,9 +89,9 @@ void demand_possible(const std::filesystem::path& file, std::span<const std::byt
   bool possible = false;
   try {
     possible = are_possible(records, unpack_whole(whole_model));
-  } catch (const std::exception&) {  // the bytes end too early, or ask for more than there is
+  } catch (const std::exception&) {  // the bytes end too early, or state a larger size
   }
-  if (!possible) refuse(file, "its numbers point to what its model does not have");
+  if (!possible) refuse(file, "its indices exceed its model");
 }
 
 void demand_constraints(const std::filesystem::path& file, const Records& records, const case_::Stage& stage) {

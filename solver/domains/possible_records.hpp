@@ -15,13 +15,13 @@ namespace breccia {
 /// Entries of constraints are only known to be no less than 0: demand_constraints. O(records log records).
 [[nodiscard]] bool are_possible(const Records& records, const WholeModel& whole);
 
-/// What the checksums of a checkpoint do not tell: that it was a run that wrote it. Throws InputError that names the
-/// file: the bytes of the model are not whole, or an index points beyond it.
+/// Checks the consistency of a checkpoint beyond its checksums. Throws InputError with the file: the bytes of the model
+/// are incomplete, or an index is out of range.
 /// @param whole_model  pack(WholeModel), domains/piece_mesh.hpp
 void demand_possible(const std::filesystem::path& file, std::span<const std::byte> whole_model, const Records& records);
 
-/// What the case of a checkpoint tells besides: every hold is of a constraint of the stage. Throws InputError that
-/// names the file. O(holds).
+/// Checks against the case of a checkpoint: every anchor belongs to a constraint of the stage. Throws InputError with
+/// the file. O(holds).
 /// @param stage  of the case, in which the checkpoint was written
 void demand_constraints(const std::filesystem::path& file, const Records& records, const case_::Stage& stage);
 

@@ -77,7 +77,7 @@ class HeldCollector {
   std::vector<NodeForce> forces_;  ///< ascending nodes
 };
 
-/// Calls visit(record) for the joints of this rank's originals that the sweep does not look after.
+/// Calls visit(record) for the joints of this rank's originals that the sweep does not evaluate.
 template <class Visit>
 void for_each_joint_record(const Domain& domain, Visit&& visit) {
   const LocalMesh& local = domain.model.local;

@@ -101,7 +101,7 @@ class Surfaces {
       return "the surface bounds no solid: " + std::to_string(crowded) + " edges belong to more than two triangles" +
              near(first);
     if (turned > 0)
-      return "inside and outside cannot be told apart: the triangles at " + std::to_string(turned) +
+      return "inside and outside cannot be distinguished: the triangles at " + std::to_string(turned) +
              " edges face different ways" + near(first);
     result.shell = numbers_of(shells, triangles_.size(), result.num_shells);
     result.patch = numbers_of(patches, triangles_.size(), result.num_patches);
@@ -199,7 +199,7 @@ class Surfaces {
             corner(t, 0).cwiseMax(corner(t, 1)).cwiseMax(corner(t, 2)), t};
   }
 
-  /// An edge of one triangle goes through the inside of another: looked for among those whose boxes meet.
+  /// An edge of one triangle goes through the inside of another: searched among those whose boxes meet.
   [[nodiscard]] std::string crossing() const {
     std::vector<Box> boxes;
     Vec3 lower = box_of(0).lower, upper = box_of(0).upper;

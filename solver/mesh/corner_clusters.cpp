@@ -83,7 +83,7 @@ void CornerClusters::cluster_corners_at(Index node, std::vector<Index>& changed)
 bool CornerClusters::bonded(Index element_a, Index element_b) const {
   const auto& a = cluster_[at(element_a)];
   const auto& b = cluster_[at(element_b)];
-  bool common = false;  // no branches: most pairs that a search finds are asked about here
+  bool common = false;  // no branches: most pairs of a search are tested here
   for (const Index id : a) {
     for (const Index other : b) common |= id == other;
   }

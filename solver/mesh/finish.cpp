@@ -88,7 +88,7 @@ void demand_computable(const Mesh& mesh) {
     for (const auto& [a, b] : geometry::kEdges) {
       longest = std::max(longest, (x[at(a)] - x[at(b)]).cwiseAbs().maxCoeff());  // a square may vanish
     }
-    const bool tiny = longest > 0 && longest < kSmallest;  // of no length at all: a flat one, told as such
+    const bool tiny = longest > 0 && longest < kSmallest;  // of no length at all: reported as a flat one
     const double rounding = largest * std::numeric_limits<double>::epsilon();
     if (largest > kLargest || tiny)
       beyond.push_back(mesh.element_source_id[at(e)]);

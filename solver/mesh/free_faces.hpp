@@ -18,7 +18,7 @@ using FreeFace = std::array<Index, 3>;
 [[nodiscard]] std::vector<FreeFace> free_faces(const Mesh& mesh, const Topology& topology);
 
 /// Calls f(node, tree) for each of the nodes, in any order, with the tree of all free faces of its solid: a body, or
-/// the bodies glued to it, whose elements share nodes. A tree is built only where a node asks for it.
+/// the bodies glued to it, whose elements share nodes. A tree is built only if a node needs it.
 void for_each_with_tree(const Mesh& mesh, std::span<const FreeFace> faces, std::vector<Index> nodes,
                         const std::function<void(Index, const TriangleTree&)>& f);
 

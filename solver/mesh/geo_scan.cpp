@@ -131,7 +131,7 @@ class Scanner {
     return kind == GeometryFile::script || kind == GeometryFile::unknown;
   }
 
-  /// One that is told a second time is the same.
+  /// A second one of the same name is ignored.
   void add(GeoParameter parameter) {
     const bool is_new = !parameter.name.empty() ? result.constants.insert(parameter.name).second
                                                 : result.onelab_names.count(parameter.label) == 0;

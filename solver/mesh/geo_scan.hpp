@@ -13,7 +13,7 @@ namespace breccia {
 struct GeoParameter {
   std::string name;   ///< of the constant; empty: it has only a label
   std::string label;  ///< text after `Name`, which sets it as well; empty: none
-  std::string value;  ///< what it is unless it is set, as it is written there; empty: not told
+  std::string value;  ///< its default, as written there; empty: not stated
   std::string words;  ///< comment behind it on its line
 };
 

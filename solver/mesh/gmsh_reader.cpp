@@ -83,7 +83,7 @@ Problem failure_of(const GmshSource& source, const ChildEnd& end, std::uint64_t 
       is_plain(end.text) || end.kind == ChildEnd::Kind::forbidden ? ": " + end.text : std::string();
   switch (end.kind) {
     case ChildEnd::Kind::forbidden:
-      return {file, 0, "mesh.file", "tries to do what a mesh may not" + said, kTrustAdvice, ""};
+      return {file, 0, "mesh.file", "attempts an operation that is not permitted to a mesh" + said, kTrustAdvice, ""};
     case ChildEnd::Kind::out_of_time:
       return {file,
               0,

@@ -14,8 +14,8 @@ struct GmshSource {
   std::filesystem::path file;  ///< of base/geometry_file.hpp: a script, a solid, a mesh of gmsh or of another program
   std::filesystem::path case_folder;  ///< files beneath it may be included, as those beneath the file's; empty: none
   std::map<std::string, double>
-      parameters;          ///< numbers set before the .geo runs: names it takes from DefineConstant, asks for
-                           ///< by Exists, or shows under a `Name "Group/label"`
+      parameters;          ///< numbers set before the .geo runs: names in DefineConstant or Exists, or with a `Name
+                           ///< "Group/label"`
   double scale = 1.0;      ///< file units to m; beside the unit that a STEP file states
   double size = 0;         ///< m, edge of the elements of a solid; 0: a tenth of the root of its box's volume
   bool glue = false;       ///< conforming interfaces between volumes are glued
@@ -35,12 +35,12 @@ struct GmshSource {
 /// "surface_<tag>". Node groups: the physical curves and points, "curve_<tag>", "point_<tag>"; nodes of no element are
 /// left out. Volumes are those of the geometry, by ascending tag: partitions of one are one. Element source ids are
 /// gmsh's. A .geo is meshed on one thread, from gmsh's fixed random seed: the same file and parameters give the same
-/// mesh; so is a solid, whose groups mesh/gmsh/solids.hpp tells. A STEP file states the unit of its lengths.
+/// mesh; so is a solid; for its groups see mesh/gmsh/solids.hpp. A STEP file states the unit of its lengths.
 ///
 /// The file is read by a child process without the right to run, write or connect to anything (system/confinement.hpp),
 /// and to read anything outside the folders of the file and of the case (system/file_access.hpp, where the kernel has
 /// Landlock), unless the source is trusted; and within the limits of time and memory, never more than the memory that
-/// is available: whatever a file does to the child ends in an InputError.
+/// is available: any failure of the child ends in an InputError.
 /// A file FILE.opt beside a mesh, which gmsh takes commands from, is refused unless the source is trusted.
 ///
 /// Throws InputError with all problems of the step that fails: file missing, unreadable or of another kind; parameters

@@ -18,7 +18,7 @@
 namespace breccia {
 namespace {
 
-/// Whether the list of shapes of a BREP file is whole: OpenCASCADE looks for the end of one that is cut off for ever.
+/// Whether the list of shapes of a BREP file is whole: OpenCASCADE never returns from a truncated one.
 bool has_all_shapes(std::ifstream& in) {
   std::string word;
   long wanted = -1, ended = 0;
@@ -33,7 +33,7 @@ bool has_all_shapes(std::ifstream& in) {
   return wanted == 0;
 }
 
-/// A STEP file says where it ends.
+/// A STEP file has an end mark.
 bool has_step_end(std::ifstream& in) {
   constexpr std::streamoff kTail = 4096;  // blanks and a signature may follow the last word
   in.clear();
@@ -44,8 +44,8 @@ bool has_step_end(std::ifstream& in) {
   return tail.find("END-ISO-10303-21") != std::string::npos;
 }
 
-/// A solid begins as its kind does: of what it does not know gmsh says nothing, or takes it for a script. An STL is
-/// read by mesh/stl_file.hpp, which demands the same.
+/// A solid has the first line of its kind: unknown files gmsh ignores silently, or reads as a script. An STL is read by
+/// mesh/stl_file.hpp, which demands the same.
 void demand_solid(const GmshSource& source, GeometryFile kind, std::ifstream& in) {
   constexpr std::size_t kHead = 512;  // comments and blanks before the first word of a STEP or BREP file included
   std::string head(kHead, '\0');

@@ -7,13 +7,13 @@
 
 namespace breccia {
 
-/// What can be told without opening anything: the file is there, a regular file with a name of a known kind, and no
-/// larger than the memory that reading it may take. Throws InputError. O(1)
+/// Checks without opening the file: it exists, a regular file with a name of a known kind, and no larger than the
+/// memory that reading it may take. Throws InputError. O(1)
 /// @param memory  bytes
 void check_file(const GmshSource& source, std::uint64_t memory);
 
-/// What can be told without gmsh: the file is of the format that its name states; scale and size are lengths; every
-/// parameter is finite and one that the script takes. Reads the whole file, so that only a process within bounds
+/// Checks without gmsh: the file is of the format that its name states; scale and size are lengths; every parameter is
+/// finite and one that the script takes. Reads the whole file, so that only a process within bounds
 /// calls it. Throws InputError. @pre check_file
 void check_source(const GmshSource& source);
 

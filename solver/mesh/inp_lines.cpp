@@ -80,7 +80,7 @@ bool InpLines::next(InpLine& line) {
   line.continues = text.ends_with(',');
   if (text.starts_with('*')) {
     std::string more;
-    while (text.ends_with(',') && raw_line(more)) text += more;  // a keyword goes on behind a comma
+    while (text.ends_with(',') && raw_line(more)) text += more;  // a keyword continues behind a comma
     read_keyword(line, text);
     return true;
   }

@@ -25,7 +25,7 @@ class InpLines {
   explicit InpLines(const std::filesystem::path& file) { open(file); }
   /// False at the end of the file.
   bool next(InpLine& line);
-  /// Goes on in another file, and comes back at its end. False where it cannot be opened, or includes itself.
+  /// Continues in another file, and returns at its end. False where it cannot be opened, or includes itself.
   bool open(const std::filesystem::path& file);
 
  private:

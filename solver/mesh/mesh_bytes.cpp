@@ -60,7 +60,7 @@ class Reader {
   template <class T>
   std::vector<T> list() {
     const auto size = number<std::uint64_t>();
-    if (size > rest_.size() / sizeof(T)) refuse("a list is longer than what came");
+    if (size > rest_.size() / sizeof(T)) refuse("a list is longer than the received data");
     std::vector<T> values(static_cast<std::size_t>(size));
     take(static_cast<void*>(values.data()), values.size() * sizeof(T));
     return values;
@@ -72,7 +72,7 @@ class Reader {
   /// Number of things of which each takes at least eight bytes.
   std::size_t count() {
     const auto size = number<std::uint64_t>();
-    if (size > rest_.size() / 8) refuse("a list is longer than what came");
+    if (size > rest_.size() / 8) refuse("a list is longer than the received data");
     return static_cast<std::size_t>(size);
   }
   void end() const {

@@ -18,7 +18,7 @@ struct RawMesh {
   std::vector<std::string> notes;  ///< MeshReport::notes
 };
 
-/// What is said of elements with nodes between their corners.
+/// Note on elements with nodes between their corners.
 inline constexpr const char* kHigherOrderNote =
     "elements of second or higher order are read by their corners: mid-side nodes are ignored, mass and volume are "
     "those of straight edges";
@@ -28,8 +28,8 @@ using MeshOrProblems = std::variant<RawMesh, std::vector<Problem>>;
 
 [[nodiscard]] std::vector<std::byte> bytes_of(const MeshOrProblems& read);
 
-/// The reverse of bytes_of. Who sent them is not trusted: every length is compared with what is there before memory is
-/// asked for, and every index with the list it points into.
+/// The reverse of bytes_of. The sender is not trusted: every length is checked against the size before memory is
+/// allocated, and every index against its list.
 /// Throws InputError when the bytes are anything but a whole mesh or a whole list of problems. O(bytes).
 [[nodiscard]] MeshOrProblems mesh_of(std::span<const std::byte> bytes);
 

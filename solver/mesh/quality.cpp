@@ -19,7 +19,7 @@ Distribution distribution_of(std::vector<double> values) {
   double sum = 0;
   for (const double value : values) sum += value;
   const auto count = static_cast<double>(values.size());
-  auto sorted_to = values.begin();  // what is asked for ascends, and all before it is smaller
+  auto sorted_to = values.begin();  // requested ranks ascend, and all values before are smaller
   const auto quantile = [&](double q) {
     const auto rank = static_cast<std::size_t>(std::max(1.0, std::ceil(q * count)));
     const auto place = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size()) - 1);

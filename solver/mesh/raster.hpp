@@ -36,7 +36,7 @@ struct RasterSource {
 /// tetrahedron has its centroid in the centre of a cell of cell_size and its corners on alternate corners of a cube.
 ///
 /// Surface groups: `<group>.x0`, `.x1`, `.y0`, `.y1`, `.z0`, `.z1` (lower and upper side of every box, turned with it;
-/// none for single tetrahedra) and `<group>.slit` where a slit is asked for.
+/// none for single tetrahedra) and `<group>.slit` if there is a slit.
 ///
 /// The rotation of a box depends on the seed and the box's number alone and uses nothing but integer arithmetic,
 /// + - * / and sqrt: the same seed gives the same mesh on every machine.

@@ -108,7 +108,7 @@ std::vector<Around> around_nodes(const std::vector<bool>& breakable, const Mesh&
 
 /// What lies behind a node on the surface, m.
 double depth_behind(const Vec3& x, const Around& around, const TriangleTree& tree) {
-  constexpr double kBehind = 0.5;     // of the distance: a face seen at less than 30 degrees goes on beside the node
+  constexpr double kBehind = 0.5;     // of the distance: a face seen at less than 30 degrees continues beside the node
   constexpr double kRoundOff = 1e-9;  // an edge from side to side of a wall is as long as the wall is thick
   const double longest = (1 + kRoundOff) * around.longest_edge;
   const double reach = std::min(longest, around.above_free);

@@ -27,9 +27,9 @@ struct SurfaceDepth {
 /// its distances to free faces that it lies behind by half its distance at least (the other side of a wall, the far
 /// side of a ridge); where there is none of these nearer than its longest edge, the least of its heights.
 ///
-/// Where an element meets the surface with an edge or a corner alone, its depths do not tell the normal of the surface
-/// there: some of its nodes may be nearer to another side. `sides` holds, for each such set, how far the corners lie
-/// behind the plane through the set whose normal is the mean of those of the free faces around it.
+/// Where an element meets the surface with an edge or a corner alone, its depths do not determine the normal of the
+/// surface there: some of its nodes may be nearer to another side. `sides` holds, for each such set, how far the
+/// corners lie behind the plane through the set whose normal is the mean of those of the free faces around it.
 /// O(n log n) in the free faces, throws nothing.
 /// @param breakable  (volume groups) inner faces may be freed
 /// @pre mesh is finished, topology belongs to it

@@ -35,7 +35,7 @@ struct Topology {
     Index element;
     int face;
   };
-  /// In a piece of a mesh: the element behind a face whose link says kBeyond.
+  /// In a piece of a mesh: the element behind a face whose link is kBeyond.
   struct Beyond {
     Face face;
     GlobalId neighbour;

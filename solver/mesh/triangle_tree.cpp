@@ -106,7 +106,7 @@ double TriangleTree::distance(const Vec3& point, double limit,
       return squared_distance_to_box(point, nodes_[at(n)].lower, nodes_[at(n)].upper);
     };
     if (box_distance(far) < box_distance(near)) std::swap(near, far);
-    pending[depth++] = far;  // the nearer child is looked at first and prunes the other
+    pending[depth++] = far;  // the nearer child is visited first and prunes the other
     pending[depth++] = near;
   }
   return found ? std::sqrt(best2) : limit;

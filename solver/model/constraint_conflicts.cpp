@@ -45,14 +45,14 @@ Index mesh_nodes_of(const std::vector<NamedNode>& nodes) {
   return static_cast<Index>(std::unique(ids.begin(), ids.end()) - ids.begin());
 }
 
-/// Whether two entries ask for the same along an axis.
+/// Whether two entries have the same motion along an axis.
 bool agree(const case_::Constraint& a, const case_::Constraint& b, std::size_t axis) {
   const TimeFunction &f = a.value[axis], &g = b.value[axis];
   if (f.is_zero() && g.is_zero()) return true;
   return a.kind == b.kind && f == g;
 }
 
-/// visit(earlier, later, axis) for entries of a stage that ask for different motions.
+/// visit(earlier, later, axis) for entries of a stage with different motions.
 template <class Visit>
 void for_each_difference(const case_::Case& input, Visit&& visit) {
   for (const case_::Stage& stage : input.stages) {

@@ -11,7 +11,7 @@
 
 namespace breccia {
 
-/// Two entries of a stage that ask nodes to move differently along an axis; the later one rules them.
+/// Two entries of a stage with different motions of the same nodes along an axis; the later one applies.
 struct ConstraintConflict {
   const case_::Constraint* earlier;
   const case_::Constraint* later;
@@ -35,8 +35,8 @@ struct NamedNode {
 /// Nodes of groups by name; by their ids ascending, each once.
 using NodesOfGroups = std::map<std::string, std::vector<NamedNode>>;
 
-/// Volume and surface groups of which two entries of a stage ask for different motions along an axis: only if they
-/// share nodes do these conflict.
+/// Volume and surface groups with different motions along an axis in two entries of a stage: only if they share nodes
+/// do these conflict.
 [[nodiscard]] std::vector<std::string> groups_to_compare(const case_::Case& input);
 
 /// Brings nodes of a group into order.
@@ -46,8 +46,8 @@ void sort_nodes(std::vector<NamedNode>& nodes);
 [[nodiscard]] std::vector<ConstraintConflict> constraint_conflicts(const case_::Case& input,
                                                                    const NodesOfGroups& nodes);
 
-/// By stage, later entry, earlier entry, axis. Entries that ask for the same do not conflict. O(corners log corners)
-/// for each entry of a pair that could.
+/// By stage, later entry, earlier entry, axis. Entries with the same motion do not conflict. O(corners log corners) for
+/// each entry of a pair that could.
 /// @param model  of the whole mesh; a bare one will do. The result points into `input`.
 [[nodiscard]] std::vector<ConstraintConflict> constraint_conflicts(const case_::Case& input, const Model& model);
 

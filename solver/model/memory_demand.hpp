@@ -12,8 +12,8 @@ namespace breccia {
 /// O(groups + elements).
 [[nodiscard]] double model_bytes(const Model& model);
 
-/// Refuses what would fill the memory that this machine has available, before it is asked for.
-/// @param elements  for the message;  @param bytes  that will be asked for
+/// Refuses demands beyond the available memory of this machine, before the allocation.
+/// @param elements  for the message;  @param bytes  to be allocated
 /// Throws InputError.
 void demand_memory(const case_::Case& input, double elements, double bytes);
 

@@ -83,7 +83,7 @@ std::optional<Problem> wrong_joint_law(const case_::Case& input, const std::vect
     return Problem{input.file.string(),
                    input.mesh.origin.line,
                    "joint",
-                   "the meshes of " + pair + " are glued, but no joint law says how",
+                   "the meshes of " + pair + " are glued, but there is no joint law between them",
                    own + ", or mesh.glue = false",
                    ""};
   }

@@ -10,7 +10,7 @@
 namespace breccia {
 namespace {
 
-/// Joints that the sweep does not look after, at their stiffest.
+/// Joints that the sweep does not evaluate, at their stiffest.
 std::vector<JointStiffness> other_joints(const Model& model) {
   std::vector<JointStiffness> joints;
   for (const ModelJoint& joint : model.joints) {
@@ -133,7 +133,7 @@ std::string given_step_text(double dt, const StableStep& step) {
   }
   return given + number_text(dt / step.step, 3) + " times longer than what " + limit_text(step) + " allows, " +
          number_text(step.step, 3) +
-         " s: what is pressed together there may gain energy. Leave it to \"auto\", or lower the penalty.";
+         " s: bodies in contact there may gain energy. Set it to \"auto\", or lower the penalty.";
 }
 
 }  // namespace breccia

@@ -16,7 +16,7 @@ namespace breccia {
 ///
 /// The bound by element is cheap and follows the deformation; at rest the true limit of the linear system without
 /// contact is larger by a ratio that is found once by iteration and kept: fracture makes nothing stiffer. Contact is
-/// added to each element as physics/contact/contact_step.hpp says.
+/// added to each element by physics/contact/contact_step.hpp.
 class TimeStep {
  public:
   /// @param ranks  the other ranks, where the ratio is not known yet (WholeModel::step_ratio) and the model is a piece:
@@ -37,7 +37,7 @@ class TimeStep {
   /// (num_nodes) 1: a stage's constraints prescribe its motion in all directions.
   [[nodiscard]] std::vector<std::uint8_t> held_nodes(const std::vector<NodalConstraint>& constraints) const;
   [[nodiscard]] const Model& model() const { return model_; }
-  /// What open faces add to the step, kept from one look to the next.
+  /// Contributions of open faces to the step, kept between evaluations.
   [[nodiscard]] ContactElements& contact_elements() const { return contact_elements_; }
 
  private:

@@ -11,7 +11,7 @@
 namespace breccia {
 namespace {
 
-/// Faces of a body look at each other when the line between their middles is so close to both normals (its cosine).
+/// Faces of a body face each other when the line between their middles is so close to both normals (its cosine).
 constexpr double kFacing = 0.8;
 
 struct FreeFace {
@@ -21,7 +21,7 @@ struct FreeFace {
   Vec3 middle, normal;
 };
 
-/// @param boxes  out: around the faces, wide enough to overlap where two of equal size may look at each other
+/// @param boxes  out: around the faces, wide enough to overlap where two of equal size may face each other
 std::vector<FreeFace> free_faces(const Mesh& mesh, const Topology& topology, std::vector<PatchTree::Box>& boxes) {
   std::vector<FreeFace> faces;
   for (Index e = 0; e < mesh.num_elements(); ++e) {

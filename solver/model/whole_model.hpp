@@ -57,7 +57,7 @@ struct WholeModel {
   }
 };
 
-/// What the mesh alone tells of it: sizes, bodies and centres; nothing of joints, contact and the step.
+/// The part that follows from the mesh alone: sizes, bodies and centres; without joints, contact and the step.
 /// @param lambda_2mu  (volume groups) Pa;  @param density  (volume groups) kg/m3. O(elements).
 [[nodiscard]] WholeModel whole_of(const case_::Case& input, const Mesh& mesh, const std::vector<double>& lambda_2mu,
                                   const std::vector<double>& density);

@@ -20,7 +20,8 @@ constexpr std::size_t kStress = 6;
 /// A corner of an element, as means at its vertex need it.
 struct Corner {
   GlobalId vertex, element, node;
-  std::array<GlobalId, 3> held{-1, -1, -1};  ///< elements held across the faces at this corner; unknown of a proxy's
+  std::array<GlobalId, 3> held{-1, -1, -1};  ///< elements connected across the faces at this corner; unknown of a
+                                             ///< proxy's
   double mass = 0;                           ///< kg, of the element
   std::int64_t place = -1;                   ///< 4 original + corner; -1: a proxy's
 };
@@ -139,8 +140,8 @@ void take_mean(const std::vector<const Corner*>& part, Row&& row, std::span<doub
   for (std::size_t k = 0; k < mean.size(); ++k) mean[k] = first[k] + mean[k] / mass;
 }
 
-/// Corners whose part goes on beyond this rank. Vertices are distributed over the ranks by their ids; each rank sends
-/// its corners to those of their vertices, which return the means.
+/// Corners whose connected part extends beyond this rank. Vertices are distributed over the ranks by their ids; each
+/// rank sends its corners to those of their vertices, which return the means.
 class SharedParts {
  public:
   SharedParts(const Communicator& communicator, std::size_t width)

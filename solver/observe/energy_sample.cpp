@@ -41,8 +41,8 @@ constexpr std::array kEnergies{&EnergyBudget::kinetic,          &EnergyBudget::e
                                &EnergyBudget::viscous,          &EnergyBudget::damping};
 
 /// What is there, not dissipated.
-constexpr std::array kHeld{&EnergyBudget::kinetic, &EnergyBudget::elastic, &EnergyBudget::joint_elastic,
-                           &EnergyBudget::contact_stored};
+constexpr std::array kStoredEnergies{&EnergyBudget::kinetic, &EnergyBudget::elastic, &EnergyBudget::joint_elastic,
+                                     &EnergyBudget::contact_stored};
 
 /// s of kinetic_energy in physics/energy.hpp.
 double step_change(const Clock& clock) {
@@ -110,7 +110,7 @@ void set_residual(double first_excess, double floor, EnergyBudget& budget) {
   budget.residual = first_excess + budget.external_work + budget.step_change - total;
   budget.residual_relative = std::abs(budget.residual) / std::max(largest, floor);
   double held = 0;
-  for (const auto term : kHeld) held += budget.*term;
+  for (const auto term : kStoredEnergies) held += budget.*term;
   budget.gain_relative = (held - first_excess - budget.external_work) / std::max(largest, floor);
   budget.is_round_off = largest < floor;
 }
@@ -126,7 +126,7 @@ EnergyFault energy_fault(const EnergyBudget& budget, double residual_limit, doub
     return {"the energies are not finite", "time.residual_limit"};
   if (budget.is_round_off) return {};
   if (budget.gain_relative > gain_limit)
-    return {share("the energy held exceeds what was put in by", budget.gain_relative, gain_limit),
+    return {share("the stored energy exceeds the energy put in by", budget.gain_relative, gain_limit),
             "time.energy_gain_limit"};
   if (budget.residual_relative > residual_limit)
     return {share("the energy residual is", budget.residual_relative, residual_limit), "time.residual_limit"};

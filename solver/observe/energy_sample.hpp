@@ -23,13 +23,13 @@ namespace breccia {
 /// @param floor         J, terms below are round-off: shares are never of less
 void set_residual(double first_excess, double floor, EnergyBudget& budget);
 
-/// Why a run must not go on, and the key of the limit that it passed; both empty: it may.
+/// Reason to end a run, and the key of the exceeded limit; both empty: none.
 struct EnergyFault {
   std::string what, key;
 };
 
-/// Judges a budget by its gain and its residual. While no term is above round-off nothing is wrong as long as the
-/// numbers are finite: there is nothing that a residual could be a share of.
+/// Checks a budget by its gain and its residual. While no term exceeds round-off, only non-finite numbers are faults,
+/// since the residual has no reference.
 [[nodiscard]] EnergyFault energy_fault(const EnergyBudget& budget, double residual_limit, double gain_limit);
 
 }  // namespace breccia

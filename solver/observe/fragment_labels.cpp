@@ -24,15 +24,15 @@ Fragments fragments_of_rank(const Domain& domain) {
   return finder.find();
 }
 
-constexpr GlobalId kNothingToTell = -1;
+constexpr GlobalId kNotSent = -1;
 
-/// Every rank tells its neighbours what it calls those of their elements that it knows to hang together with others.
+/// Every rank sends its neighbours its labels of those of their elements that are connected to others.
 std::vector<Meeting> meetings(const Domain& domain, const Fragments& fragments) {
   std::vector<Communicator::ListOf<GlobalId>> lists;
   for (const SharedSlots& shared : domain.exchange.shared()) {
     std::vector<GlobalId>& labels = lists.emplace_back(Communicator::ListOf<GlobalId>{shared.rank, {}}).entries;
     for (const Index slot : shared.receive)
-      labels.push_back(fragments.alone[at(slot)] != 0 ? kNothingToTell : fragments.of_slot[at(slot)]);
+      labels.push_back(fragments.alone[at(slot)] != 0 ? kNotSent : fragments.of_slot[at(slot)]);
   }
   std::vector<Meeting> met;
   for (const auto& [rank, labels] : domain.exchange.communicator().exchange(lists)) {
@@ -40,7 +40,7 @@ std::vector<Meeting> meetings(const Domain& domain, const Fragments& fragments) 
       if (shared.rank != rank) continue;
       for (std::size_t i = 0; i < labels.size(); ++i) {
         const GlobalId here = fragments.of_slot[at(shared.send[i])];
-        if (labels[i] != kNothingToTell && labels[i] != here) met.push_back({here, labels[i]});
+        if (labels[i] != kNotSent && labels[i] != here) met.push_back({here, labels[i]});
       }
     }
   }

@@ -15,18 +15,19 @@ namespace breccia {
 /// meet at borders of domains, on all ranks).
 [[nodiscard]] Fragments find_fragments(const Domain& domain);
 
-/// Fragments and free faces, which are looked for again only when joints have failed meanwhile, or elements have moved
-/// between ranks.
+/// Fragments and free faces, which are computed again only after joints have failed or elements have moved between
+/// ranks.
 class FragmentWatch {
  public:
-  /// As of now, good until the next look. Collective. @param decompositions  so far
+  /// At present, valid until the next call. Collective. @param decompositions  so far
   const Fragments& look(const Domain& domain, std::int64_t decompositions);
-  /// Free faces of this rank's originals, as of the last look and as long good. @pre domain is that of the last look
+  /// Free faces of this rank's originals, as of the last look() and valid as long. @pre domain is that of the last
+  /// look()
   const std::vector<SurfaceFace>& free_faces(const Domain& domain);
 
  private:
   Fragments fragments_;
-  std::optional<std::vector<SurfaceFace>> faces_;   ///< nothing: not asked for since the last change
+  std::optional<std::vector<SurfaceFace>> faces_;   ///< nothing: not requested since the last change
   std::int64_t broken_ = -1, decompositions_ = -1;  ///< for which fragments_ were found; joints of the whole model
 };
 

@@ -51,7 +51,7 @@ void add_cell(const Domain& domain, const Fragments& fragments, Index slot, Fram
   append(out.displacement, centroid(local, x, slot) - centroid(local, local.reference.data(), slot));
 }
 
-/// Ids of the elements that are or were held across the four faces.
+/// Ids of the elements that are or were connected across the four faces.
 void add_neighbours(const Model& model, Index slot, std::vector<std::int64_t>& out) {
   for (int face = 0; face < 4; ++face)
     out.push_back(neighbour_id(model.mesh, model.topology, model.local.mesh_element[at(slot)], face));
@@ -131,7 +131,7 @@ void add_released_joint(const Domain& domain, const ReleasedJoint& joint, Frame:
   out.id.push_back(joint.id);
 }
 
-/// Triangle halfway between the two faces of a joint that is still held.
+/// Triangle halfway between the two faces of a joint that has not failed.
 void add_active_joint(const Domain& domain, const ActiveJoint& joint, Frame::Joints& out) {
   const LocalMesh& local = domain.model.local;
   const double* x = domain.state.nodes.position.data();

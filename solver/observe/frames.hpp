@@ -17,7 +17,7 @@ struct FrameLabels {
   double load = 1;                        ///< working time of this rank over that of the mean rank, for the domain
 };
 
-/// A picture of this rank's originals at the domain's time; looks, changes nothing. Collective with values at points.
+/// Frame of this rank's originals at the domain's time; read only. Collective with values at points.
 /// @param parts  the others stay empty
 [[nodiscard]] Frame make_frame(const Domain& domain, std::int64_t number, const FrameParts& parts,
                                const FrameLabels& labels);

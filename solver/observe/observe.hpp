@@ -12,7 +12,7 @@
 
 namespace breccia {
 
-/// Looks at a running partition for the history and for pictures; changes nothing. Collective, all of it.
+/// Samples a running partition for the history and for frames; read only. All members are collective.
 class Observer {
  public:
   /// @pre input and partition outlive this object

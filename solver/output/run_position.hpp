@@ -27,7 +27,7 @@ struct BrokenCount {
 /// which are the root's.
 struct RunPosition {
   std::int64_t stage = 0;                                      ///< of the case, begun
-  std::int64_t until_look = 0, since_look = 0, calm = 0;       ///< StepLooks
+  std::int64_t until_look = 0, since_look = 0, growth = 0;     ///< StepSchedule
   double motion = 0;                                           ///< m, largest of a node in a step
   double wall = 0;                                             ///< s, that the run has taken so far
   std::array<double, 4> histories{}, frames{}, checkpoints{};  ///< Schedule::numbers
@@ -48,7 +48,8 @@ struct FieldTable<RunPosition> {
       FieldRow{"stage", "1", kNotHashed, [](auto& r) -> auto& { return r.stage; }},
       FieldRow{"steps_until_stable_step_is_looked_at", "1", kNotHashed, [](auto& r) -> auto& { return r.until_look; }},
       FieldRow{"steps_since_stable_step_was_looked_at", "1", kNotHashed, [](auto& r) -> auto& { return r.since_look; }},
-      FieldRow{"steps_in_which_the_step_could_grow_by_half", "1", kNotHashed, [](auto& r) -> auto& { return r.calm; }},
+      FieldRow{"steps_in_which_the_step_could_grow_by_half", "1", kNotHashed,
+               [](auto& r) -> auto& { return r.growth; }},
       FieldRow{"largest_motion", "m", kNotHashed, [](auto& r) -> auto& { return r.motion; }},
       FieldRow{"wall_time", "s", kNotHashed, [](auto& r) -> auto& { return r.wall; }},
       FieldRow{"schedule_of_history", "s, 1, 1, 1", kNotHashed, [](auto& r) -> auto& { return r.histories; }},

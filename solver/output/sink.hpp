@@ -15,9 +15,9 @@ struct RunStart {
   std::string title;
   std::int64_t elements = 0, joints = 0;
   std::vector<std::string> gauges;  ///< groups, in the order of HistoryRow::gauges
-  bool insitu = false;              ///< pipelines work while it goes on: HistoryRow::insitu_share
+  bool insitu = false;              ///< pipelines are executed during the run: HistoryRow::insitu_share
   std::optional<OutputMarks>
-      marks{};  ///< the run goes on from a checkpoint: what is beyond these in its files is dropped
+      marks{};  ///< the run continues from a checkpoint: entries of its files beyond these are removed
   std::vector<std::string> bodies{};  ///< (bodies) what users call them; on the first rank
 };
 
@@ -61,13 +61,13 @@ class Sink {
   virtual void start(const RunStart&) {}
   virtual void frame(const Frame&) {}
   virtual void history(const HistoryRow&) {}
-  /// True when the sink would use a status line now: asked every step, so that no line is made in vain.
+  /// True when the sink would use a status line now; called every step, so that no unused line is made.
   [[nodiscard]] virtual bool status_due() const { return false; }
   virtual void status(const StatusLine&) {}
   virtual void event(const RunEvent&) {}
   /// How far the files are, for a checkpoint.
   virtual void mark(OutputMarks&) const {}
-  /// Also after an error: Summary::status tells ("complete", "stopped: ..." or the error's text).
+  /// Also after an error: see Summary::status ("complete", "stopped: ..." or the error's text).
   virtual void finish(const Summary&) {}
 };
 

@@ -9,7 +9,7 @@
 namespace breccia {
 namespace {
 
-constexpr std::size_t kBins = 256;  ///< of a histogram; each pass looks into the bin where the cut must lie
+constexpr std::size_t kBins = 256;  ///< of a histogram; each pass refines the bin that contains the cut
 constexpr int kPasses = 5;          ///< 2^-40 of the box: finer than elements are apart, along the tilted normal too
 /// Cuts are planes tilted by this slope, and by its square along the third axis: regular meshes have many centroids in
 /// one plane, which could only go to one side together.

@@ -81,7 +81,7 @@ void wait_for(const Communicator::Handle& handle, std::span<MPI_Request> request
     check_mpi(MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE),
               "MPI_Testall");
   }
-  // A longer gap between two looks is of a process that was stopped, with all its job or by its machine's sleep.
+  // A longer gap between two polls is of a process that was stopped, with its job or by suspension of the machine.
   constexpr double kLongestGap = 1;  // s
   Clock::time_point before = Clock::now();
   double waited = 0;
@@ -299,7 +299,7 @@ PendingReduction::PendingReduction(const Communicator& communicator, std::size_t
     : request_(std::make_unique<Request>(communicator.handle(), count)) {}
 PendingReduction::PendingReduction(PendingReduction&&) noexcept = default;
 PendingReduction& PendingReduction::operator=(PendingReduction&& other) noexcept {
-  std::swap(request_, other.request_);  // what may be on its way here is settled with the other
+  std::swap(request_, other.request_);  // a pending request is completed by the other
   return *this;
 }
 

@@ -85,9 +85,9 @@ class Communicator {
 
   /// Names what the rank is about to do, for the message of a wait that lasts too long.
   void set_phase(const char* phase) const;
-  /// Waits longer than this are told on stderr, waits twice as long end with NoResponse; s. Default 300. After that
-  /// error only a pending reduction and a halo may be waited for again; anything else has left MPI with memory that is
-  /// gone: end the process.
+  /// Waits longer than this are reported on stderr, waits twice as long end with NoResponse; s. Default 300. After that
+  /// error only a pending reduction and a halo may be waited for again; other operations have left MPI with freed
+  /// memory: end the process.
   void set_patience(double seconds) const;
   [[nodiscard]] double patience() const;  ///< s; 0 alone
 

@@ -41,8 +41,8 @@ struct DomainReport {
 
 /// Loads of the domains at rest.
 ///
-/// A proxy is gathered in every step if a joint holds it to an original or if it shares a node with one, in a body
-/// without joints (kBytesAProxy is then an upper bound: a shared node goes once). It is held if its box is within
+/// A proxy is gathered in every step if a joint connects it to an original or if it shares a node with one, in a body
+/// without joints (kBytesAProxy is then an upper bound: a shared node is sent once). It is stored if its box is within
 /// its reach of the box around the originals. step = kSecondsAnElement elements + kSecondsAMessage
 /// neighbours + bytes / kBytesASecond: joints on a cut are computed on both sides, but so they are in the sweep of one
 /// rank.

@@ -32,7 +32,7 @@ double cut_area(const std::array<int, 3>& n, const std::array<double, 3>& edge) 
 /// Differences below are round-off: the first of equals is taken.
 constexpr double kSameArea = 1e-9;
 
-/// Agrees with what was asked for; 0 agrees with everything.
+/// Whether the given numbers agree; 0 agrees with everything.
 bool agrees(const std::array<int, 3>& n, const std::array<int, 3>& asked) {
   return std::equal(n.begin(), n.end(), asked.begin(),
                     [](int given, int wanted) { return wanted == 0 || given == wanted; });

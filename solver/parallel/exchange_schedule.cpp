@@ -8,12 +8,13 @@
 namespace breccia {
 namespace {
 
-constexpr int kNobody = -1;
+constexpr int kNoPartner = -1;
 
 /// Edges of a graph that get colours so that no two at a vertex have the same.
 class EdgeColours {
  public:
-  EdgeColours(std::size_t vertices, std::size_t colours) : colours_(colours), partner_(vertices * colours, kNobody) {}
+  EdgeColours(std::size_t vertices, std::size_t colours)
+      : colours_(colours), partner_(vertices * colours, kNoPartner) {}
 
   /// Gives the edge u v a colour; others may change theirs. @pre it has none; both have fewer coloured edges than
   /// colours - 1
@@ -42,7 +43,7 @@ class EdgeColours {
   [[nodiscard]] std::size_t at(int vertex, std::size_t colour) const {
     return static_cast<std::size_t>(vertex) * colours_ + colour;
   }
-  [[nodiscard]] bool is_free(int vertex, std::size_t colour) const { return partner(vertex, colour) == kNobody; }
+  [[nodiscard]] bool is_free(int vertex, std::size_t colour) const { return partner(vertex, colour) == kNoPartner; }
   [[nodiscard]] std::size_t free_at(int vertex) const {
     std::size_t colour = 0;
     while (!is_free(vertex, colour)) ++colour;
@@ -53,8 +54,8 @@ class EdgeColours {
     partner_[at(v, colour)] = u;
   }
   void unset(int u, int v, std::size_t colour) {
-    partner_[at(u, colour)] = kNobody;
-    partner_[at(v, colour)] = kNobody;
+    partner_[at(u, colour)] = kNoPartner;
+    partner_[at(v, colour)] = kNoPartner;
   }
 
   /// Neighbours of u from v on, the edge to each of a colour that the one before lacks; as long as can be.
@@ -65,7 +66,8 @@ class EdgeColours {
       for (std::size_t colour = 0; colour < colours_ && !grown; ++colour) {
         const int w = partner(u, colour);
         const auto is_w = [&](const Spoke& spoke) { return spoke.vertex == w; };
-        if (w == kNobody || !is_free(fan.back().vertex, colour) || std::any_of(fan.begin(), fan.end(), is_w)) continue;
+        if (w == kNoPartner || !is_free(fan.back().vertex, colour) || std::any_of(fan.begin(), fan.end(), is_w))
+          continue;
         fan.push_back({w, colour});
         grown = true;
       }

@@ -29,10 +29,10 @@ enum class Tag : int { parcel = 1, halo = 2 };
 /// Throws InternalError with MPI's own text unless the call succeeded.
 void check_mpi(int result, const char* call);
 
-/// Waits for all requests by polling, so that more ranks than cores share them; past the patience tells on stderr whom
-/// it waits for and in which phase, past twice the patience throws NoResponse. Requests stay as they are then: their
+/// Waits for all requests by polling, so that more ranks than cores share them; past the patience reports on stderr the
+/// rank it waits for and the phase, past twice the patience throws NoResponse. Requests are then still pending: their
 /// buffers must outlive them or the process must end.
-/// @param ranks  whom each request waits for, -1: everybody
+/// @param ranks  rank that each request waits for, -1: all
 void wait_for(const Communicator::Handle& handle, std::span<MPI_Request> requests, std::span<const int> ranks);
 
 /// Waits half a second at most, for the end of what may have failed elsewhere. Whether nothing is on its way any more.

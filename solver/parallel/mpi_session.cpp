@@ -20,9 +20,9 @@ bool launched() {
 
 MpiSession::MpiSession(int& argc, char**& argv) {
   if (!launched()) return;
-  // Ranks of one machine speak through its memory; Open MPI need not listen to networks then, whatever the system's
-  // settings of it are. Its components ofi and uct serve one-sided messages, of which there are none; ofi would look at
-  // memory that any thread gives back, without locks.
+  // Ranks of one machine communicate by shared memory; Open MPI need not listen to networks then, with any system
+  // settings. Its components ofi and uct serve one-sided messages, of which there are none; ofi would read memory that
+  // any thread frees, without locks.
   const char *all = std::getenv("OMPI_COMM_WORLD_SIZE"), *here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
   const bool one_machine = all != nullptr && here != nullptr && std::string_view(all) == here;
   ::setenv("OMPI_MCA_btl", one_machine ? "^tcp,ofi,uct" : "^ofi,uct", 0);
@@ -30,7 +30,8 @@ MpiSession::MpiSession(int& argc, char**& argv) {
     ::setenv("OMPI_MCA_pml", "ob1", 0);
     ::setenv("OMPI_MCA_mtl", "^ofi", 0);
   }
-  // Open MPI looks for graphics cards on every X display it can reach, and Xlib ends the process when one closes then.
+  // Open MPI searches for graphics cards on every X display it can reach, and Xlib ends the process when one closes
+  // then.
   ::setenv("HWLOC_COMPONENTS", "-gl", 0);
   int provided = 0;
   check_mpi(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");

@@ -13,7 +13,7 @@
 
 namespace breccia {
 
-/// Surfaces behind which the material goes on.
+/// Absorbing surfaces: the material continues behind them.
 struct AbsorbingSurfaces {
   struct Part {
     LoadedFace face;
@@ -32,16 +32,16 @@ struct AbsorbingSurfaces {
 ///
 /// n its normal at rest, a third of its area to each corner. Waves along n leave without reflection, others with a
 /// little. The force of a node is -C (v(n-1/2) + v(n+1/2)) / 2, C the sum over its faces, so that the boundary sets no
-/// limit to the step. Where nodes were held before, the forces that held them go on (`supports`): a body at rest stays
-/// at rest.
+/// limit to the step. The forces of former constraints on its nodes continue (`supports`): a body at rest stays at
+/// rest.
 ///
 /// In a step: `begin` before the sweep, `apply` right after it, before constraints, `account_after` when the works up
 /// to t_n have been read. O(nodes of the boundary), no allocation, throws nothing.
 class AbsorbingBoundary {
  public:
   AbsorbingBoundary() = default;
-  /// @param held  axes that constraints hold are theirs alone
-  /// @param before  forces that have held nodes so far, ascending nodes
+  /// @param held  constrained axes are excluded
+  /// @param before  constraint forces on nodes so far, ascending nodes
   /// @pre mesh outlives this object
   AbsorbingBoundary(const AbsorbingSurfaces& surfaces, const LocalMesh& mesh, const Constraints& held,
                     std::span<const NodeForce> before);

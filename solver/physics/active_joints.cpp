@@ -7,8 +7,8 @@
 namespace breccia {
 namespace {
 
-/// All are put in order again when as many have come or gone as a quarter of them, or so many of a short list.
-constexpr std::size_t kUntidy = 4, kFew = 64;
+/// All are sorted again when a quarter of them was added or removed, or so many of a short list.
+constexpr std::size_t kSortFraction = 4, kLeastChanges = 64;
 
 std::size_t block_of(Index place) { return at(place / kLanes); }
 std::size_t lane_of(Index place) { return at(place % kLanes); }
@@ -110,7 +110,7 @@ void ActiveJoints::put_in_order() {
 
 void ActiveJoints::note_changes(std::size_t number) {
   changes_ += number;
-  if (changes_ < std::max(kFew, size() / kUntidy)) return;
+  if (changes_ < std::max(kLeastChanges, size() / kSortFraction)) return;
   put_in_order();
   changes_ = 0;
 }

@@ -12,10 +12,10 @@
 
 namespace breccia {
 
-/// The active list: joints in ascending order of their ids. They stand in blocks of eight of one law, by rows, for the
-/// kernel, those that come with damage and those that come without apart; a joint is told and taken in as an
-/// ActiveJoint. Each stays in its place in memory while others come and go, since in a breaking body some do in almost
-/// every step, until so many have that all are put in order again.
+/// The active list: joints in ascending order of their ids. They are stored in blocks of eight of one law, by rows, for
+/// the kernel, joints that arrive with damage and without in separate blocks; a joint is read and added as an
+/// ActiveJoint. Each keeps its place in memory while others are added and removed, which happens in almost every step
+/// of a breaking body, until after many changes all are sorted again.
 class ActiveJoints {
  public:
   /// What the kernel need not know of a joint.
@@ -64,7 +64,7 @@ class ActiveJoints {
   void insert(std::span<const ActiveJoint> batch);
   /// Takes joints off the list. @param ids  ascending, all of them on the list. O(list), none when there are none
   void erase(std::span<const GlobalId> ids);
-  /// Joints that have not failed fail at their next evaluation and let go of what they hold (active_joint_forces).
+  /// Joints that have not failed fail at their next evaluation and release their forces (active_joint_forces).
   /// @param ids  ascending; those that are not on the list do not matter. O(list)
   void break_points(std::span<const GlobalId> ids);
 
@@ -89,7 +89,7 @@ class ActiveJoints {
   std::vector<Index> order_;                ///< places by ascending id
   std::vector<std::vector<Index>> vacant_;  ///< by kind: places that are free, the next to be taken last
   std::vector<Index> newcomers_;
-  std::size_t changes_ = 0;  ///< joints that have come or gone since all were put in order
+  std::size_t changes_ = 0;  ///< joints that were added or removed since the last sort
 };
 
 }  // namespace breccia

@@ -80,7 +80,7 @@ void Constraints::apply(NodalState& state, double time, double dt_before, double
   }
 }
 
-// Nodes that fill a block stand side by side, as all do where a whole body is held.
+// Nodes that fill a block are consecutive, as all are if a whole body is constrained.
 void Constraints::apply_still(Hold& hold, NodalState& state) const {
   const auto still = [&](std::size_t k, std::size_t at, std::size_t number) {
     for (std::size_t i = 0; i < number; ++i) {

@@ -20,7 +20,7 @@ enum class PrescribedMotion {
   displacement  ///< m, from where the node was when the constraints were made
 };
 
-/// Nodes that move as told, by axis.
+/// Nodes with imposed motion, by axis.
 struct NodalConstraint {
   std::vector<Index> nodes;
   std::array<bool, 3> axes{false, false, false};
@@ -38,24 +38,24 @@ struct NodeForce {
 /// counts once.
 ///
 /// In a step: `apply` right after the sweep, `account_after` when the works up to t_n have been read. O(constrained
-/// nodes), no allocation, throws nothing. An axis held at rest does no work: of its nodes `apply` only keeps the
-/// velocity that the sweep gave them, from which the reaction is found when someone asks.
+/// nodes), no allocation, throws nothing. An axis fixed at rest does no work: for its nodes `apply` only stores the
+/// velocity that the sweep gave them, from which the reaction is computed on request.
 class Constraints {
  public:
   Constraints() = default;
   /// @param state  position at the stage's start, where displacements count from; velocity of the step before it
   /// @param mass_damping  alpha of the force -alpha m v that the sweep has applied, 1/s
-  /// @param local_damping  beta of the other force that it has applied; it does not act on axes that are held
+  /// @param local_damping  beta of the other force that it has applied; it does not act on constrained axes
   /// @pre mesh outlives this object
   Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const NodalState& state,
               double mass_damping = 0, double local_damping = 0);
 
-  /// Overwrites v(n+1/2): by the velocity asked for at t_(n+1/2), or by (u(t_(n+1)) - (x_n - x_start)) / dt, with which
+  /// Overwrites v(n+1/2): by the imposed velocity at t_(n+1/2), or by (u(t_(n+1)) - (x_n - x_start)) / dt, with which
   /// positions hold to round-off; and next_position by x_n + dt v. Keeps the reactions
   ///   R = m (1 + alpha k/2) (v - v_free) / k,  k = kick_length(dt_before, dt),
   /// which with the damping force -alpha m (v(n-1/2) + v(n+1/2)) / 2 give the node this velocity, and accounts their
   /// work over the step that ended at t_n. v_free is the velocity that the sweep would have left without local damping,
-  /// which is that of free motion: a platen feels what presses on it.
+  /// which is that of free motion: the reaction of a platen includes the contact force on it.
   /// @param state      position at t_n, velocity and next_position as the sweep left them
   /// @param time       t_n;  @param dt_before  t_n - t_(n-1), 0 at the start;  @param dt  t_(n+1) - t_n, s
   void apply(NodalState& state, double time, double dt_before, double dt);
@@ -81,10 +81,10 @@ class Constraints {
   };
   /// By entry, node and axis.
   [[nodiscard]] std::vector<Anchor> anchors() const;
-  /// Takes over what was remembered elsewhere; anchors that hold nothing here are passed over. O(n log n).
+  /// Restores anchors recorded elsewhere; those of nodes that are not constrained here are ignored. O(n log n).
   void restore(std::span<const Anchor> anchors);
 
-  /// All nodes of which some axis is held, ascending.
+  /// All nodes with a constrained axis, ascending.
   [[nodiscard]] const std::vector<Index>& nodes() const { return nodes_; }
   /// (nodes) which axes.
   [[nodiscard]] const std::vector<std::array<bool, 3>>& held_axes() const { return held_axes_; }
@@ -95,7 +95,7 @@ class Constraints {
   /// The nodes that an entry rules on one axis.
   struct Hold {
     int axis;
-    bool still;                    ///< held at rest at all times
+    bool still;                    ///< fixed at rest at all times
     bool rests = false;            ///< all velocities are zero: the axis is still, and has been in the last step
     std::vector<Index> nodes;      ///< ascending
     std::vector<double> start;     ///< (nodes) m

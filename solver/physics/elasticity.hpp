@@ -162,8 +162,8 @@ inline void neo_hookean_piola(const Tensor<T>& f, const Tensor<T>& cof, const T&
 
 /// Cauchy stress of thesis eq. 3.10 without its viscous term, Pa, row-major:
 /// T = J^(-2/3) [ E/(1+nu) (B/J^(2/3) - I)/2 + E/(1-2nu) (J^(2/3) - 1)/2 I ].
-/// Below j_min the factor of B stays at its value there and the isotropic part goes on along its tangent: a pressure
-/// that keeps growing linearly as the element collapses and turns inside out.
+/// Below j_min the factor of B stays at its value there and the isotropic part continues along its tangent: the
+/// pressure grows linearly as the element collapses and inverts.
 template <class T>
 [[nodiscard]] inline Tensor<T> green_st_venant_stress(const Tensor<T>& f, const T& j, const ElasticParams& p) {
   using std::cbrt;

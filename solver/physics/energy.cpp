@@ -18,8 +18,8 @@ elasticity::Corners<double> corners_of(const LocalMesh& mesh, const double* fiel
   return x;
 }
 
-/// Calls account(nodes) for all that this rank counts: an element with its own four nodes, whose terms may be added up
-/// as they are on whatever rank it is, or a shared node.
+/// Calls account(nodes) for all that this rank counts: an element with its own four nodes, whose terms are the same on
+/// any rank, or a shared node.
 template <class Account>
 void for_each_carrier(const LocalMesh& mesh, Account&& account) {
   for (Index s = 0; s < mesh.num_own_originals; ++s) {

@@ -19,7 +19,7 @@ struct JointRow {
   [[nodiscard]] const double& operator[](std::size_t l) const { return lane[l]; }
 };
 
-/// What the last evaluation said of a joint, beside forces.
+/// Result of the last evaluation of a joint, beside forces.
 enum JointNews : std::uint8_t {
   kElastic = 1,   ///< without damage, and well within the elastic range
   kFailing = 2,   ///< has failed in this step

@@ -105,16 +105,16 @@ template <class T>
   return p;
 }
 
-/// A joint is a crack, whatever its other points do, once it has damage and a corner is farther open than this many
-/// times the critical opening of its mode, d_nt + D_n, while it holds d_st + D_s ...
+/// A joint is a crack, for any state of its other points, once it has damage and a corner is farther open than this
+/// many times the critical opening of its mode, d_nt + D_n, or d_st + D_s while it has not failed ...
 inline constexpr double kCrackOpening = 10;
 /// ... or a corner's opening is longer than this share of the size of the mid-surface, the root of its area: then that
-/// surface says nothing about the two faces.
+/// surface does not represent the two faces.
 inline constexpr double kLostShape = 0.5;
 /// Share of the reference area below which a mid-surface has no normal to turn.
 inline constexpr double kFlat = 0.01;
-/// Evaluations in which a crack hands over what it still carries, pressure of closed points mostly: no force jumps. It
-/// is faster where the opening grows beyond kLostShape meanwhile (most_held).
+/// Evaluations in which the remaining forces of a crack decay, mostly pressure of closed points: no force jumps. It is
+/// faster where the opening grows beyond kLostShape meanwhile (most_held).
 inline constexpr double kHandoverSteps = 64;
 
 /// Joints that are cracks by their opening.
@@ -136,7 +136,7 @@ template <class T>
   return damaged && crack;
 }
 
-/// Largest share of its forces that a crack still carries: 1 up to an opening of kLostShape times the size of its
+/// Largest remaining share of the forces of a crack: 1 up to an opening of kLostShape times the size of its
 /// mid-surface, 0 from twice that on. Elements that fold about a hinge lie back to back within fewer steps than
 /// kHandoverSteps; the mid-surface then has no area, and its normal changes sign.
 template <class T>
@@ -147,7 +147,7 @@ template <class T>
   return select(shape2 > 0.0, greater(T(2.0 - root(T(largest2 / shape2))), T(0.0)), T(0.0));
 }
 
-/// Evaluates the points and takes what they dissipate; returns the force on each corner of a.
+/// Evaluates the points and accumulates their dissipation; returns the force on each corner of a.
 template <class T>
 [[nodiscard]] inline Triple<T> evaluate_points(const JointLawParams& law, const Kinematics<T>& k, Joint<T>& joint) {
   Response<T> response[3];

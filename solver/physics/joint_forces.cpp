@@ -56,7 +56,7 @@ jp::Sides<double> sides_of(const LocalMesh& mesh, const double* position, const 
   return sides;
 }
 
-/// Evaluates the joint beyond its elastic range, whatever its opening.
+/// Evaluates the joint as beyond its elastic range, for any opening.
 jp::Forces<double> evaluate(const JointLawParams& law, const LocalMesh& mesh, const double* position,
                             ActiveJoint& joint) {
   const jp::Kinematics<double> k = jp::kinematics(law, sides_of(mesh, position, joint));

@@ -53,13 +53,13 @@ struct JointEnergy {
 /// goes to the two corners of its edge in halves. n is the unit normal of the mid-surface.
 ///
 /// A joint fails when points_to_fail points are at damage 1, or as a crack (joint_evaluation.hpp: a corner open ten
-/// times the critical opening, or a mid-surface that has lost its shape). The points that still hold let go in
-/// kFailureSteps evaluations. Failed, it remains a frictional interface while it is closed (sigma = k delta_n, Coulomb
-/// friction). When all its corners are open at once it is released: it carries no force and holds no energy from then
-/// on and is taken off the list. A crack is released when all that it carries has decayed in kHandoverSteps
-/// evaluations; what it held is dissipated: cohesion in its mode, friction springs as friction, pressure as viscous.
-/// A joint without damage whose opening is back within half the surely elastic range is marked `elastic`: the sweep may
-/// have it back after this step.
+/// times the critical opening, or a mid-surface that has lost its shape). The other points lose their cohesion in
+/// kFailureSteps evaluations. A failed joint remains a frictional interface while it is closed (sigma = k delta_n,
+/// Coulomb friction). When all its corners are open at once it is released: it has no force and no energy from then on
+/// and is removed from the list. A crack is released when its forces have decayed in kHandoverSteps evaluations; its
+/// stored energy is dissipated: cohesion in its mode, friction springs as friction, pressure as viscous. A joint
+/// without damage whose opening is within half the elastic range again is marked `elastic`: it returns to the sweep,
+/// which evaluates it at lower cost, after this step.
 /// @param time  s, t_n: of the positions
 /// @param simd  instruction set; the bits are the same with every one
 /// O(joints), allocates only when joints come, fail or are elastic, throws nothing.
@@ -77,7 +77,7 @@ void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const doubl
                    bool side_a, double* force);
 
 /// Gives joints that have just left the elastic range their histories at x_n, with the forces that virgin_forces gave
-/// (evaluate_point says what a first evaluation accounts).
+/// (for the energy of a first evaluation see evaluate_point).
 void start_history(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
                    std::span<ActiveJoint> joints);
 

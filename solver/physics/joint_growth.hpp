@@ -1,8 +1,8 @@
 #pragma once
 
-// Growth of the damage of a joint point, and the energy that it takes (joint_lanes.hpp says for which T). Branches on
-// the law's parameters, which all lanes share, are branches; those on data are `select`, and a branch is left out only
-// when no lane takes it.
+// Growth of the damage of a joint point, and the energy that it takes (for T see joint_lanes.hpp). Branches on the
+// law's parameters, which all lanes share, are branches; those on data are `select`, and a branch is left out only when
+// no lane takes it.
 
 #include "physics/joint_history.hpp"
 #include "physics/joint_lanes.hpp"
@@ -209,8 +209,7 @@ template <class T>
   return loss;
 }
 
-/// In a joint that has failed the points that still hold lose their cohesion in as many evaluations, whatever their
-/// opening: no force jumps.
+/// In a failed joint the points with cohesion lose it in as many evaluations, for any opening: no force jumps.
 inline constexpr double kFailureSteps = 64;
 
 template <class T>

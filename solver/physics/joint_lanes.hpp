@@ -2,7 +2,7 @@
 
 // Arithmetic of the joint kernel, for T = double and for T = std::experimental::simd<double, ...>, lane by lane: the
 // same operations in the same order for every T, hence the same bits. No function here is compiled for a plain type in
-// a unit of a wider instruction set (sweep_kernel.hpp says why): all are templates over T.
+// a unit of a wider instruction set (reason: sweep_kernel.hpp): all are templates over T.
 
 #include <experimental/simd>
 

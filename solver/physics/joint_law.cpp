@@ -21,8 +21,7 @@ double rise_energy(const JointLawParams& law, double strength) {
   __builtin_unreachable();
 }
 
-/// Squared opening up to which a joint that can break is linear elastic in every direction, m2; 0: only a point can
-/// tell.
+/// Squared opening up to which a joint that can break is linear elastic in every direction, m2; 0: the points decide.
 double screen_of(const JointLawParams& law) {
   if (law.points != JointPoints::nodal) return 0.0;
   switch (law.law) {

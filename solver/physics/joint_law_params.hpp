@@ -103,8 +103,8 @@ struct JointLawParams {
   double width_shear = 0;   ///< D_s, m
   double screen = 0;        ///< m2
 
-  /// Squared opening up to which the joint is linear elastic whatever its direction, so that the sweep can evaluate it;
-  /// 0: the sweep does not know this law.
+  /// Squared opening up to which the joint is linear elastic in any direction, so that the sweep can evaluate it; 0:
+  /// the sweep does not know this law.
   [[nodiscard]] double screen_limit() const { return screen; }
   [[nodiscard]] bool breakable() const;
 };

@@ -23,7 +23,7 @@ struct Response {
   Mask<T> elastic;
 };
 
-/// One component: traction over opening, Pa/m, and energy held, J/m2.
+/// One component: traction over opening, Pa/m, and stored energy, J/m2.
 template <class T>
 struct ComponentState {
   T stiffness, stored;
@@ -105,8 +105,8 @@ template <class T>
   return {select(slid, T(law.stiffness * mean * (length - limit)), zero), spring2, along_slip};
 }
 
-/// What the shear stiffness k of the cohesion loses with a share dK of itself, J/m2. The slipping share takes over the
-/// energy of its spring; as delta_s = slip + spring, the rest is
+/// Energy that the shear stiffness k of the cohesion loses with a share dK of itself, J/m2. The slipping share keeps
+/// the energy of its spring; as delta_s = slip + spring, the rest is
 ///   1/2 k dK (delta_s^2 - spring^2) = dK (1/2 k slip^2 + k spring . slip).
 /// The second term is what friction would have dissipated had this share slipped from the beginning; the first alone
 /// adds up to G_II under any pressure. Source: [Palmer and Rice 1973]
@@ -192,7 +192,7 @@ template <class T>
 }
 
 /// Contract: evaluate_point of joint_law.hpp.
-/// @param failed  of the joint: its points let go of what they still hold
+/// @param failed  of the joint: its points lose their remaining cohesion
 template <class T>
 [[nodiscard]] inline Response<T> evaluate(const JointLawParams& law, const Frame<T>& frame, const Vector<T>& opening,
                                           const Mask<T>& failed, Point<T>& h) {

@@ -3,9 +3,10 @@
 namespace breccia {
 
 /// Time from v_(n-1/2) to v_(n+1/2), s: the mean of the steps before and after t_n (central differences of variable
-/// step). With the step to come alone, every change of it would give or take energy. The first step is from rest.
+/// step). With the next step alone, every change of it would add or remove energy. The first step is from rest.
 /// @param before  t_n - t_(n-1), 0 at the start;  @param dt  t_(n+1) - t_n, s
-/// @pre both steps are stable for the node as it is held and loaded now: the last one of a stage also by the next stage
+/// @pre both steps are stable for the node with its present constraints and loads: the last one of a stage also by the
+/// next stage
 [[nodiscard]] constexpr double kick_length(double before, double dt) { return before > 0 ? 0.5 * (before + dt) : dt; }
 
 /// Damping as the sweep applies it (physics/sweep.hpp) to a component of a node that moves from v(n-1/2) to v(n+1/2).

@@ -100,7 +100,7 @@ void act_on_shared(const StepModel& model, std::size_t block, const double* u, d
   });
 }
 
-/// Adds the forces of joints that the sweep does not look after.
+/// Adds the forces of joints that the sweep does not evaluate.
 void act_on_joints(const StepModel& model, const double* u, double* y) {
   const LocalMesh& mesh = model.mesh;
   for (const JointStiffness& joint : model.joints) {

@@ -29,8 +29,8 @@ struct LoadedFace {
 /// Load on faces, a third of each on every corner: pressure p, which follows its faces, f = -p(t) A / 3, A the present
 /// outward area vector (positive pushes into the body); or traction t, which does not, f = t(t) |A0| / 3, A0 at rest.
 ///
-/// In a step: `apply` before the sweep, `account_after` once velocities belong to t_(n+1/2) and constraints have had
-/// their say. O(faces) each, no allocation.
+/// In a step: `apply` before the sweep, `account_after` once velocities belong to t_(n+1/2) and constraints are
+/// applied. O(faces) each, no allocation.
 class SurfaceLoad {
  public:
   /// Faces are sorted by (slot, face) and named once: the order in which forces are summed. @param pressure  Pa
@@ -67,9 +67,9 @@ class SurfaceLoad {
 /// Work of gravity on this rank's originals, J, to the same trapezoid rule as every other force. The sweep applies
 /// gravity as an acceleration.
 ///
-/// Gravity is uniform in space, so its work is a functional of the potential m g . (x - X): as long as g does not
-/// change it is the difference to where g took its value, and nothing is computed until someone asks. In the steps
-/// where g changes, the work of the step is taken from the velocities. Cost of `advance`: three comparisons while g is
+/// Gravity is uniform in space, so its work is a functional of the potential m g . (x - X): while g is constant it is
+/// the difference of the potential since the last change of g, and is computed on request only. In the steps where g
+/// changes, the work of the step is taken from the velocities. Cost of `advance`: three comparisons while g is
 /// constant; O(elements) for every step of a ramp. Cost of `work`: O(elements).
 struct GravityWork {
   ExactSum past;    ///< J, work up to the anchor, or up to the last `advance` while g changes

@@ -236,12 +236,12 @@ double stiffest(const StepModel& model, std::span<const StepShare> shares) {
 /// on the slow motion. With few steps a period they do not die out either: |f| varies at 2 omega and feeds other
 /// vibrations. A cantilever of stiff joints (penalty_factor 100, beta 0.6) under a load that grows over about one of
 /// its periods came to 0.36, 0.83 and 1.00 of its bending with 2, 3 and 5 here; one of 300 to 0.96 with 5.
-constexpr double kCalmed = 5.0;
+constexpr double kSlowMotionFactor = 5.0;
 
 ElementSteps::ElementSteps(const StepModel& model, double most)
     : most_(most),
       most_damping_(stiffest_ratio(model.params) > 0 ? stiffest_ratio(model.params) * most : 0.0),
-      forces_(model.local_damping > 0 ? kCalmed * (1.0 + model.local_damping) : 1.0) {}
+      forces_(model.local_damping > 0 ? kSlowMotionFactor * (1.0 + model.local_damping) : 1.0) {}
 
 double ElementSteps::step_of(double omega_squared, double damping) const {
   return breccia::step_of(forces_ * omega_squared, forces_ * damping);

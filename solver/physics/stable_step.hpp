@@ -16,9 +16,9 @@
 
 namespace breccia {
 
-/// A joint that the sweep does not look after, at its stiffest: intact, or closed. No law is stiffer than k anywhere:
-/// the parabolic rise begins with it, softening and unloading are softer, and the friction of the damaged share fills
-/// up to it.
+/// A joint that the sweep does not evaluate, at its stiffest: intact, or closed. No law is stiffer than k anywhere: the
+/// parabolic rise begins with it, softening and unloading are softer, and the friction of the damaged share fills up to
+/// it.
 struct JointStiffness {
   Index slot_a = 0, slot_b = 0;
   std::int8_t face_a = 0, code = 0;  ///< as in JointFace
@@ -68,7 +68,7 @@ struct StepShare {
   double damping = 0;               ///< 1/s
   bool by_face = false;             ///< own nodes
 
-  /// omega_j^2 of a corner. @param open  bits of faces whose joints are gone
+  /// omega_j^2 of a corner. @param open  bits of faces whose joints are released
   [[nodiscard]] double joint_at(int corner, unsigned open = 0) const;
   /// Largest omega_e^2, omega_j^2 and omega_e^2 + omega_j^2.
   [[nodiscard]] double largest_element() const { return *std::max_element(element.begin(), element.end()); }
@@ -83,17 +83,16 @@ struct StepShare {
 ///
 /// - element: omega_e^2 = (4/rho) sum_a [mu |g_a|^2 + psi''(J) |cof F g_a|^2], g_a the gradients of the shape
 ///   functions: at rest 4 c_p^2 sum_a h_a^-2, i.e. dt = 1/(c_p sqrt(sum_a h_a^-2)); with the present F it follows
-///   crushed elements, below j_min with mu + |F| (psi'(j_min) - psi'(J)) for mu (on 2,000 random deformations each from
-///   J = 1.5 to -0.5, neo-Hookean law, 1 to 180 % above the element's own omega^2).
+///   crushed elements, below j_min with mu + |F| (psi'(j_min) - psi'(J)) for mu (always above the element's own
+///   omega^2).
 ///   c = omega_e^2 2 mubar/(lambda + 2 mu).
 ///   Elements that share nodes: the mean of their omega_e^2 around each node, weighted with their masses.
-///   Drucker-Prager: omega_e^2 = (4/rho) drucker_prager_stiffness (1.35 to 14 times as much, likewise).
-/// - joints: omega_j^2 = 2 max_i (sum over the joints at node i of k A0/3) / m_i, whatever their points; where nodes
-/// are
-///   shared all elements around a node count
+///   Drucker-Prager: omega_e^2 = (4/rho) drucker_prager_stiffness (likewise).
+/// - joints: omega_j^2 = 2 max_i (sum over the joints at node i of k A0/3) / m_i, for all kinds of
+///   points; for shared nodes over all elements around a node
 /// - contact: contact/contact_step.hpp
 ///
-/// Local damping makes every force that slows a node down 1 + beta times as large, and so omega^2 and c.
+/// Local damping multiplies every force that decelerates a node by 1 + beta, and so omega^2 and c.
 ///
 /// @param position  nodal field, m.  (num_slots), zeros on padding. O(elements).
 [[nodiscard]] std::vector<StepShare> step_shares(const StepModel& model, const Field<double>& position);
@@ -104,7 +103,7 @@ struct StepShare {
 /// The step of the originals from their shares.
 /// @param most      1/s2, that omega_e^2 + omega_j^2 is known not to exceed anywhere: the true limit
 /// @param contacts  (num_slots), or empty: none
-/// @param open      (num_slots) bits of faces whose joints are gone, or empty: none
+/// @param open      (num_slots) bits of faces whose joints are released, or empty: none
 [[nodiscard]] StableStep stable_step(const StepModel& model, std::span<const StepShare> shares,
                                      double most = std::numeric_limits<double>::infinity(),
                                      std::span<const ContactShare> contacts = {},
@@ -115,7 +114,7 @@ class ElementSteps {
  public:
   /// @param most  as above
   ElementSteps(const StepModel& model, double most);
-  /// s. @param open  bits of faces whose joints are gone
+  /// s. @param open  bits of faces whose joints are released
   [[nodiscard]] double of(const StepShare& share, const ContactShare& contact, unsigned open) const;
   /// s. @param omega_squared, damping  1/s2 and 1/s, without local damping
   [[nodiscard]] double step_of(double omega_squared, double damping) const;

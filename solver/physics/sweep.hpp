@@ -10,7 +10,7 @@
 
 namespace breccia {
 
-/// What the sweep tells about the elements it went over. Flags, not exceptions: the step turns them into errors.
+/// Result of the sweep for its elements. Flags, not exceptions: the step turns them into errors.
 struct SweepStatus {
   double max_speed_squared = 0;  ///< m2/s2, over all nodes, after the step
   double speed_squared_sum = 0;  ///< m2/s2; NaN or infinite when any node's velocity is
@@ -78,7 +78,7 @@ struct SweepArgs {
 
   /// Work done so far against viscosity and by the elastic stress of laws without an energy, by element slot, J;
   /// dissipated by damping, by node, J. Each step adds its half before t_n to *_before and its half after t_n to
-  /// *_after (base/work_sum.hpp says why); both may be the same array. Null: not wanted.
+  /// *_after (reason: base/work_sum.hpp); both may be the same array. Null: not required.
   double* viscous_before = nullptr;
   double* viscous_after = nullptr;
   double* stress_before = nullptr;
@@ -105,7 +105,7 @@ enum class Simd { sse2, avx2, avx512 };
 [[nodiscard]] std::string_view name_of(Simd simd);
 
 /// Widest instruction set of this machine that the kernel is built for; BRECCIA_SIMD=sse2|avx2|avx512 in the
-/// environment asks for a narrower one.
+/// environment selects a narrower one.
 [[nodiscard]] Simd best_simd();
 [[nodiscard]] bool simd_available(Simd simd);
 /// @pre simd_available(simd)

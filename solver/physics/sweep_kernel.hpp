@@ -206,7 +206,7 @@ template <std::size_t kFace>
   }
 }
 
-/// v_(n+1/2) of W nodes from the force on them; accounts damping work when asked.
+/// v_(n+1/2) of W nodes from the force on them; accounts damping work if requested.
 struct Mover {
   const SweepArgs& args;
   Real keep, gain;  // v <- keep v + gain kick a

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLeft = 62, kRight = 14, kTop = 10, kBelow = 46, kLegendRow = 20;
 constexpr std::size_t kMostPoints = 800;  // of a line: twice as many as there are pixels of a common screen in it
-// Told apart by those who do not see all colours, and in grey by their dashes (lines) and order (areas).
+// Distinguishable with colour blindness, and in grey by their dashes (lines) and order (areas).
 constexpr std::array<const char*, 12> kColours{"#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9",
                                                "#8c6d1f", "#5e3c99", "#b2182b", "#4d4d4d", "#7fbc41", "#999999"};
 constexpr std::array<const char*, 4> kDashes{"", "8 3", "2 3", "9 3 2 3"};

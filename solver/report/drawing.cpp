@@ -81,8 +81,8 @@ void end_with_child(int signal) {
 
 void end_group(int) { ::kill(0, SIGKILL); }
 
-/// Forks: the child goes on; the caller waits for it and ends the whole process group when `parent` ends, however it
-/// does, so that no screen and no ParaView outlives it.
+/// Forks: the child continues; the caller waits for it and ends the whole process group when `parent` ends in any way,
+/// so that no screen and no ParaView outlives it.
 void guard_against_end_of(pid_t parent) {
   std::signal(SIGTERM, end_group);
   if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0 || ::getppid() != parent) end_group(0);
@@ -149,7 +149,7 @@ End run_program(const std::vector<std::string>& words, const fs::path& log, std:
   return end;
 }
 
-/// The last line that says something, of the program or else of ParaView's messages, which take errors of the script.
+/// The last non-empty line of the program, or else of ParaView's messages, which include errors of the script.
 std::string last_words(const fs::path& log, const fs::path& messages) {
   std::string last;
   for (const fs::path& file : {messages, log}) {
@@ -194,7 +194,7 @@ Figures draw_run(const fs::path& run, char up, std::chrono::seconds limit) {
   Figures figures = read_figures(scratch.path());
   if (end == End::out_of_time)
     figures.missing =
-        fmt::format("ParaView took more than {} s and was ended; what was done by then is shown", limit.count());
+        fmt::format("ParaView took more than {} s and was ended; parts finished by then are shown", limit.count());
   else if (end == End::failed || figures.paraview.empty())
     figures.missing = "ParaView could not read or draw the run: " + last_words(log, scratch.path() / "messages.log");
   else if (!draws)

@@ -19,7 +19,7 @@ namespace {
 
 using case_::WrittenKey;
 
-/// Entries of a list of the case that say the same of several groups, or pairs of groups.
+/// Equal entries of a list of the case for several groups, or pairs of groups.
 struct Column {
   std::vector<std::string> groups;
   std::vector<WrittenKey> keys;

@@ -7,7 +7,7 @@
 namespace breccia::report {
 namespace {
 
-// Fonts of the system; one column that prints; nothing is told by colour alone.
+// Fonts of the system; one column that prints; colour is never the only distinction.
 constexpr const char* kStyle = R"(
 :root { color-scheme: light; }
 * { box-sizing: border-box; }
@@ -100,7 +100,7 @@ std::string page_of(const RunRecord& run, const Figures& figures, const std::str
     links += fmt::format("<a href=\"#{}\">{}</a> ", part.id, part.title);
     sections += section(part.id, part.title, part.html);
   }
-  // The policy lets nothing run and nothing be fetched, whatever stands in the page.
+  // The policy permits no scripts and no requests, for any content of the page.
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
          "style-src 'unsafe-inline'\">\n"

@@ -44,7 +44,7 @@ void read_history(const RunFolder& run, RunRecord& record) {
   if (record.history.rows() == 0) record.flaws.emplace_back("history.csv has no line yet.");
 }
 
-/// Names that are told for all bodies, in their order; else none.
+/// Names if given for all bodies, in their order; else none.
 void read_bodies(const RunFolder& run, RunRecord& record) {
   const std::optional<std::string> text = regular_content(run.bodies());
   if (!text) return;
@@ -71,7 +71,7 @@ void take_status(run_folder::StatusLine line, RunRecord& record) {
 void read_status(const RunFolder& run, RunRecord& record) {
   const std::optional<std::string> text = regular_content(run.status());
   if (!text) {
-    record.flaws.emplace_back("status.jsonl is missing: how the run ended is not known.");
+    record.flaws.emplace_back("status.jsonl is missing: the end of the run is unknown.");
     return;
   }
   const run_folder::WholeLines found = run_folder::whole_lines(*text);
@@ -96,7 +96,7 @@ void flatten(const Json& node, const std::string& path, RunRecord& record) {
   }
 }
 
-/// An object, or null with a flaw told. @param needed  its absence is a flaw
+/// An object, or null with a reported flaw. @param needed  its absence is a flaw
 Json object_in(const fs::path& file, bool needed, RunRecord& record) {
   const std::optional<std::string> text = regular_content(file);
   if (!text) {
@@ -186,13 +186,13 @@ void read_case_of(const RunFolder& run, RunRecord& record) {
   }
 }
 
-/// A run that was killed together with who watches over it still says that it goes on.
+/// The status of a run that was killed together with its watch is still "running".
 void settle_state(RunRecord& record) {
   if (record.state.empty()) record.state = "unknown";
   const bool alive = record.state == "running" || record.state == "paused";
   if (!alive || !holder_of(record.folder).empty()) return;
   record.state = "interrupted";
-  record.message = "no process works on it any more, and none has told its end";
+  record.message = "its process has ended without a final status";
 }
 
 }  // namespace

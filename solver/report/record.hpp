@@ -16,14 +16,14 @@ namespace breccia::report {
 
 using run_folder::History;
 
-/// A line of status.jsonl that tells where the run stood.
+/// A line of status.jsonl with the progress of the run.
 struct StatusPoint {
   double wall = 0;  ///< s, since the start or the resumption
   double time = 0;  ///< s, simulated
   double imbalance = 1;
 };
 
-/// All that a run's files say of it, whether it is complete, goes on or was killed.
+/// Data of a run's files, whether it is complete, in progress or was killed.
 struct RunRecord {
   std::filesystem::path folder;
   std::string title;
@@ -49,11 +49,11 @@ struct RunRecord {
   [[nodiscard]] std::string body_name(double number) const;
   /// What a gauge is called: one that is named by a body's number, "body 3", by the body's name as well.
   [[nodiscard]] std::string gauge_label(const std::string& gauge) const;
-  /// NaN when the summary does not say.
+  /// NaN if the summary lacks it.
   [[nodiscard]] double number(const std::string& name) const;
 };
 
-/// Reads what there is; lines and files that are not whole are left out and told in `flaws`.
+/// Reads the existing files; incomplete lines and files are skipped and reported in `flaws`.
 /// Throws OutputError for a folder that is no run of breccia's (no provenance.json and no history.csv), or one that
 /// cannot be read.
 [[nodiscard]] RunRecord read_run(const std::filesystem::path& folder);

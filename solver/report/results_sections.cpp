@@ -50,8 +50,8 @@ std::string energy_chart(const History& history) {
   const std::vector<double> total = put_in(history);
   if (total.size() == time.size()) chart.series.push_back({"put in", time, total, false, true});
   return figure(svg_of(chart),
-                "Where the energy is, terms of the budget one above another. The dashed line is what the bodies had at "
-                "the start and what was put in from outside since: it ends the stack where nothing is unaccounted.");
+                "Terms of the energy budget, stacked. The dashed line is the initial energy plus the external work: "
+                "without unaccounted energy it is the top of the stack.");
 }
 
 std::string time_chart(const History& history, const std::string& title, const std::string& y_name,

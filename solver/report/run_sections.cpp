@@ -148,7 +148,7 @@ std::string warnings(const RunRecord& run, const Figures& figures) {
     lines.push_back("The run did not come to its end: " + run.state + (run.message.empty() ? "" : ", " + run.message) +
                     ".");
   if (run.state == "running" || run.state == "paused")
-    lines.emplace_back("The run goes on; this is how it stood when the page was made.");
+    lines.emplace_back("The run is in progress; the page shows its state when it was written.");
   const double residual = std::abs(known(run, "relative residual", "energy_residual_relative"));
   if (residual > kResidualOfNote)
     lines.push_back(fmt::format("The energy budget does not close: {:.2g} of the energy is unaccounted.", residual));

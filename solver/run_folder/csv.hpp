@@ -47,7 +47,7 @@ namespace run_folder {
   return fields;
 }
 
-/// The number that a field is as a whole, "nan" and "inf" among them, whatever the user's locale; nullopt: it is none.
+/// The number that a field is as a whole, "nan" and "inf" among them, in any locale; nullopt: it is none.
 [[nodiscard]] inline std::optional<double> number_of(std::string_view field) {
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);

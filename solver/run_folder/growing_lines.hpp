@@ -20,7 +20,7 @@ namespace breccia::run_folder {
 inline constexpr std::int64_t kStatusTail = 1 << 16;
 
 /// Whole lines of a file of a run's folder that grows; a line that is half written waits for its end. A call reads a
-/// few thousand lines at most, so that a window is not held up.
+/// few thousand lines at most, so that it does not block a window.
 class GrowingLines {
  public:
   static constexpr std::int64_t kFromStart = -1;

@@ -88,8 +88,8 @@ struct HistoryText {
   return read;
 }
 
-/// The columns of a history and its last whole row, whatever the length of the file; without columns where it has no
-/// whole line, without a row where it has none. Throws nothing but std::bad_alloc.
+/// The columns of a history and its last whole row, for a file of any length; without columns where it has no whole
+/// line, without a row where it has none. Throws nothing but std::bad_alloc.
 [[nodiscard]] inline History last_row_of(const std::filesystem::path& file) {
   constexpr std::uint64_t kHeader = 1 << 24, kTail = 1 << 16;  // bytes
   const Opened opened = open_regular(file, O_RDONLY, Depth::file);

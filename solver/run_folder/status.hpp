@@ -11,7 +11,7 @@
 
 namespace breccia::run_folder {
 
-/// A line of status.jsonl that says where the run stands. Numbers that it does not give are NaN.
+/// A line of status.jsonl with the progress of the run. Missing numbers are NaN.
 struct Status {
   std::string state;  ///< running, paused, complete, stopped, failed, interrupted
   std::string stage, message;
@@ -27,9 +27,9 @@ struct Status {
 struct Event {
   std::string kind, text;
   std::string id;                ///< of the command that it answers; empty: none
-  std::optional<bool> accepted;  ///< nullopt: it does not say
+  std::optional<bool> accepted;  ///< nullopt: not stated
   std::int64_t step = 0;
-  double time = 0;  ///< s, simulated; NaN: it does not say
+  double time = 0;  ///< s, simulated; NaN: not stated
 };
 
 /// One of both, or neither for a line of another kind.
@@ -44,7 +44,7 @@ struct StatusLine {
   return state == "complete" || state == "stopped" || state == "failed" || state == "interrupted";
 }
 
-/// Throws nothing but std::bad_alloc, whatever the line holds.
+/// Throws nothing but std::bad_alloc, for any content.
 [[nodiscard]] inline StatusLine parse_status_line(std::string_view line) {
   const auto json = json_of_text<nlohmann::json>(line);
   StatusLine read;

@@ -18,7 +18,7 @@ Problem uncountable_steps(const case_::Case& input, const case_::Stage& stage, d
       input, stage.origin, "end",
       "the stage would take more steps than can be counted: " + limit_text(limit) + " allows a time step of " +
           short_text(limit.step) + " s only",
-      case_::kAtMostSteps + std::string("; look at stiffness, density, viscosity, penalties and size there"),
+      case_::kAtMostSteps + std::string("; check stiffness, density, viscosity, penalties and size there"),
       short_text(left) + " s in steps of " + short_text(dt) + " s");
 }
 

@@ -7,7 +7,8 @@
 
 namespace breccia {
 
-/// Whether the steps of a length can be counted until the end of a stage, and one of them be told from the time.
+/// Whether the steps of a length can be counted until the end of a stage, and one of them is above the round-off of the
+/// time.
 /// @param left  s, to the end @param dt  s
 [[nodiscard]] inline bool are_countable(double left, double dt) { return left <= case_::kMostSteps * dt; }
 

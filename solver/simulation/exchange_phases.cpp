@@ -41,7 +41,7 @@ std::vector<std::uint8_t> receive_moved(bool search, Domain& domain) {
 }
 
 /// How far nodes of couples have moved in the last step at most, m: those that this rank moves, and those it received.
-/// What other ranks tell late is not needed for it.
+/// Delayed data of other ranks are not needed for it.
 double motion_here(const Domain& domain) {
   const double received = domain.exchange.fastest_received(domain.state.nodes.velocity);
   return std::max(domain.state.signals.max_speed, received) * domain.state.clock.dt_before;
@@ -72,8 +72,8 @@ void send_signals(const StepSignals& signals, Domain& domain) {
   domain.exchange.begin_reduction(domain.state.clock, domain.state.signals);
 }
 
-/// Where ranks have to wait for each other they do so here, at the beginning of a step, one wait after the other: what
-/// makes one of them late in the rest of it is waited for once.
+/// All waits of ranks for each other are here, at the beginning of a step, one after the other: a delay of one of them
+/// in the rest of the step is waited for once.
 void update_couples(Domain& domain) {
   receive_releases(domain);
   if (!domain.contact) return;

@@ -69,7 +69,7 @@ void sample_energies(Domain& domain) {
 
 void return_elastic_joints(Domain& domain) {
   const auto lap = domain.timer.measure(Phase::joints);
-  const Index end = domain.model.local.num_own_slots;  // the sweep looks across the faces of these only
+  const Index end = domain.model.local.num_own_slots;  // the sweep evaluates the faces of these only
   std::vector<GlobalId> ids;
   for (const ElasticJoint& joint : domain.state.work.joints.elastic) {
     if (joint.slot_a >= end || joint.slot_b >= end) continue;

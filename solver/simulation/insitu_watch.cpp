@@ -69,7 +69,7 @@ std::vector<Command> InSituWatch::asked_by_scripts() const {
   const std::vector<double> roots = partition_.communicator().all_gather(std::span<const double>(mine)).front();
   std::vector<Command> commands;
   const auto add = [&](Command::Kind kind, const char* text, double value) {
-    if (value > 0) commands.push_back({kind, value, std::string(text) + ", asked for by a script", "", ""});
+    if (value > 0) commands.push_back({kind, value, std::string(text) + ", requested by a script", "", ""});
   };
   add(Command::Kind::frame_interval, "frame_interval", roots[3]);
   add(Command::Kind::extract, "extract", roots[2]);

@@ -20,20 +20,20 @@ class InSituWatch {
   /// Starts the adaptor. Collective. @pre input and partition outlive this object. Throws as InSitu does.
   InSituWatch(const case_::Case& input, const std::filesystem::path& extracts, Partition& partition, InSitu::Tell tell);
 
-  /// Before the first look. Collective.
-  /// @param first  where the run's first step was; @param from  where it goes on; null: at its first step
+  /// Before the first call of look(). Collective.
+  /// @param first  where the run's first step was; @param from  where it continues; null: at its first step
   void start_from(Moment first, const RunPosition* from);
   /// For a checkpoint. Collective.
   [[nodiscard]] BrokenCount broken_count() const;
-  /// What this rank has to tell the others at the end of a step.
+  /// Adds the signals of this rank to the others at the end of a step.
   void add_signals(StepSignals& signals);
   /// A line of the history has been written.
   void take_row(const HistoryRow& row);
   [[nodiscard]] double share_of_time() const { return insitu_.share(); }
 
-  /// Lets the pipelines that are due work on the present state. Collective. @param all  every one of them, whatever it
-  /// costs
-  /// @return  what their scripts ask of the run, as a person might, the same on all ranks
+  /// Executes the pipelines that are due on the present state. Collective. @param all  every one of them, regardless of
+  /// the cost
+  /// @return  requests of their scripts to the run, as control commands, the same on all ranks
   [[nodiscard]] std::vector<Command> look(Observer& observer, bool all);
 
   [[nodiscard]] bool failed() const { return insitu_.failed(); }

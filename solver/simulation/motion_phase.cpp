@@ -89,8 +89,8 @@ SweepArgs sweep_args(bool sample, Domain& domain) {
   }
   split_work(sample, viscous, scratch.viscous_late, args.viscous_before, args.viscous_after);
   split_work(sample, stress, scratch.stress_late, args.stress_before, args.stress_after);
-  // That of held nodes is corrected afterwards (account_held_damping): it waits always, so that the sums are the same
-  // bits whether the energies are sampled or not.
+  // That of constrained nodes is corrected afterwards (account_held_damping): it is always deferred, so that the sums
+  // are bitwise the same whether the energies are sampled or not.
   scratch.damping_late.clear();
   if (args.mass_damping > 0 || args.local_damping > 0 || !state.absorbing.empty())
     split_work(sample || !state.constraints.empty(), state.damping_work, scratch.damping_late, args.damping_before,
@@ -120,9 +120,9 @@ std::string remedy_of(const Domain& domain) {
     return "elements have been crushed or turned inside out: lower speeds and loads, use larger elements there, or "
            "lower time.safety (or time.step)";
   if (!domain.state.loads.surfaces.empty() || !domain.state.loads.forces.empty())
-    return "a pressure, traction or force drives what it has torn off on and on: end it or lower it, or lower "
-           "time.safety (or time.step)";
-  return "the time step is too long for what happens there: lower time.safety (or time.step), or the penalties";
+    return "a pressure, traction or force keeps accelerating fragments that have separated: end it or lower it, or "
+           "lower time.safety (or time.step)";
+  return "the time step is too long for the motion there: lower time.safety (or time.step), or the penalties";
 }
 
 /// Ends the run, with a state whose numbers can be shown: positions are those before this step.
@@ -201,7 +201,8 @@ void send_proxies(Domain& domain) {
   domain.exchange.begin_gather(domain.state.nodes.next_position, domain.state.nodes.velocity);
 }
 
-/// Local damping force that the sweep put on the held axes of a node, N, regained from what it did to their velocities.
+/// Local damping force of the sweep on the constrained axes of a node, N, recovered from its effect on their
+/// velocities.
 Vec3 local_force_on_held(const SweepArgs& args, const std::array<bool, 3>& held, const Vec3& before, const Vec3& after,
                          double mass) {
   const AppliedDamping damping{args.mass_damping, args.local_damping, args.kick};
@@ -220,8 +221,8 @@ void keep_held(const Domain& domain, std::vector<Vec3>& velocities) {
     velocities.push_back(load_node(domain.state.nodes.velocity.data(), node));
 }
 
-/// The sweep accounted the damping of held nodes with the velocities they would have had. Mass damping acts on their
-/// mean velocity as they are held, local damping not at all.
+/// The sweep accounted the damping of constrained nodes with their unconstrained velocities. Mass damping acts on their
+/// imposed mean velocity, local damping not at all.
 void account_held_damping(const SweepArgs& args, Domain& domain) {
   const std::vector<Vec3>& free = domain.scratch.held_free;
   const std::vector<Index>& nodes = domain.state.constraints.nodes();
@@ -263,7 +264,7 @@ void constrain(const SweepArgs& args, Domain& domain) {
   }
 }
 
-/// Right after the sweep of held nodes: m/s, the largest speed that it gave them, without what holds them. 0: none
+/// Right after the sweep: m/s, the largest unconstrained speed of constrained nodes. 0: none
 double fastest_if_free(const Domain& domain) {
   double fastest = 0;
   for (const Index node : domain.state.constraints.nodes())
@@ -271,8 +272,7 @@ double fastest_if_free(const Domain& domain) {
   return fastest;
 }
 
-/// The sweep's largest speed is counted anew where it may be that of a held node, which loads would throw off if
-/// nothing held it.
+/// The largest speed of the sweep is computed again if it may be the unconstrained speed of a constrained node.
 void correct_max_speed(double fastest_if_free, Domain& domain) {
   constexpr double kRoundOff = 1e-12;
   double& max_speed = domain.state.signals.max_speed;

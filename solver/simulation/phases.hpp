@@ -4,7 +4,7 @@
 
 namespace breccia {
 
-// The phases of a step in their order (simulation/step.cpp). Each says what it reads and writes.
+// The phases of a step in their order (simulation/step.cpp). Each states its input and output.
 
 /// Whether the step to come is the first of a stage whose loads and constraints follow on other ones.
 [[nodiscard]] inline bool begins_stage(const State& state) {
@@ -27,7 +27,7 @@ void joint_forces(Domain& domain);
 /// Adds the forces of all couples and brings their histories up to date.
 void contact_forces(Domain& domain);
 
-/// Sends what this rank has to tell all others, received in the next step.
+/// Sends the signals of this rank to all others, received in the next step.
 void send_signals(const StepSignals& signals, Domain& domain);
 
 /// From forces to v_(n+1/2) and x_(n+1): internal forces, the sweep's joints, damping, gravity, constraints. On several

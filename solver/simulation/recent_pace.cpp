@@ -11,7 +11,7 @@ RecentPace::Pace RecentPace::follow(const Mark& now, bool paused) {
     marks_ = {now};
     return pace_;
   }
-  // The first step takes along what is done once, the first search for one: by it alone seconds were told as hours.
+  // The first step includes one-time work such as the first search, and would give hours instead of seconds.
   if (now.steps == marks_.front().steps + 1 && marks_.size() == 1) {
     marks_ = {now};
     return pace_;

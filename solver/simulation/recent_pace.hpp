@@ -18,7 +18,7 @@ class RecentPace {
     double share_per_s = 0, steps_per_s = 0;  ///< 0: not known yet
   };
 
-  /// Where the run begins or goes on.
+  /// Start or continuation of the run.
   void begin(const Mark& mark) { marks_ = {mark}; }
   /// Over the last quarter of the time since begin(), 20 s at least, or all of it. O(1) in the mean
   /// @param paused  does not count as time; the pace stays what it was

@@ -28,7 +28,7 @@ std::atomic<bool> stop_requested{false};
 
 namespace {
 
-/// Between two looks at the control file while the run is paused.
+/// Between two polls of the control file while the run is paused.
 constexpr auto kPausedLook = std::chrono::milliseconds(100);
 
 class Runner {
@@ -60,7 +60,7 @@ class Runner {
     if (insitu_) insitu_->start_from(output_.first_step(), from_ ? &*from_ : nullptr);
     if (from_)
       output_.tell_event("resume",
-                         "the run goes on from step " + std::to_string(clock().steps) + " on " +
+                         "the run continues from step " + std::to_string(clock().steps) + " on " +
                              std::to_string(communicator_.size()) + " rank" + (communicator_.size() == 1 ? "" : "s"),
                          true);
     if (!start_words_.empty()) output_.tell_event("start", start_words_, true);
@@ -137,7 +137,7 @@ class Runner {
   StageSteps begin_stage(std::size_t s) {
     const case_::Stage& stage = input_.stages[s];
     if (!from_ || s != first_stage()) return {input_, stage, partition_};
-    StageSteps steps(input_, stage, partition_, StepLooks{from_->until_look, from_->since_look, from_->calm});
+    StageSteps steps(input_, stage, partition_, StepSchedule{from_->until_look, from_->since_look, from_->growth});
     if (options_.extended && s + 1 == input_.stages.size()) steps.fit_end();
     return steps;
   }
@@ -155,7 +155,7 @@ class Runner {
       take_commands();
       steps.look();
       tell_of_step(steps);
-      look_at_state();  // a script may ask for the end: this step is the last one then
+      look_at_state();  // a script may request the end: this step is the last one then
       const bool end = s + 1 == input_.stages.size() && steps.at_last();
       const bool last = end || stop_commanded_ || output_.steps_done() + 1 == input_.time.max_steps ||
                         clock().time + clock().dt > options_.until - 0.5 * clock().dt;
@@ -165,7 +165,7 @@ class Runner {
     }
     if (checkpoints_ && !checkpoints_->is_of_now()) checkpoints_->begin(position());
     steps_ = nullptr;
-    // Behind the checkpoint: a run that goes on from it does not have this line.
+    // After the checkpoint: a run resumed from it does not have this line.
     if (status_ != "complete" && sampled_without_line_) take_line(*sampled_without_line_);
   }
 
@@ -216,14 +216,14 @@ class Runner {
     if (checkpoints_) checkpoints_->confirm(output_.sound().step);
   }
 
-  /// Between two steps, where a run that goes on from the checkpoint begins.
+  /// Between two steps, where a run resumed from the checkpoint begins.
   void look_at_checkpoints() {
     if (!checkpoints_) return;
     checkpoints_->look();
     if (checkpoints_->due()) begin_checkpoint();
   }
 
-  /// When a run ends with an error: the last sound state. A checkpoint that cannot be written is not what is told then.
+  /// When a run ends with an error: the last sound state. A failure to write it is not reported then.
   void complete_checkpoint() {
     if (!checkpoints_) return;
     try {
@@ -254,9 +254,9 @@ class Runner {
 
   [[nodiscard]] RunPosition position() const {
     RunPosition position = output_.position();
-    position.until_look = steps_->looks().until;
-    position.since_look = steps_->looks().since;
-    position.calm = steps_->looks().calm;
+    position.until_look = steps_->schedule().until;
+    position.since_look = steps_->schedule().since;
+    position.growth = steps_->schedule().growth_steps;
     if (insitu_) position.broken_count = insitu_->broken_count();
     return position;
   }
@@ -267,7 +267,7 @@ class Runner {
       output_.tell_event("control", text, good, command.id);
   }
 
-  /// What this rank has to tell the others.
+  /// Signals of this rank to the others.
   StepSignals signals() {
     StepSignals signals{.stop = stop_requested};
     if (control_.asks()) signals.orders |= kControlOrder;
@@ -340,7 +340,7 @@ class Runner {
     return {};
   }
 
-  /// Waits between two steps until a command lets the run go on or ends it.
+  /// Waits between two steps until a command resumes or ends the run.
   void stay_paused() {
     communicator_.set_phase("pause");
     while (paused_) {
@@ -376,7 +376,7 @@ class Runner {
   std::optional<RunCheckpoints> checkpoints_;
   std::optional<double> sampled_without_line_;  ///< s, of the last step, where it is so
   std::vector<Command> wait_for_checkpoint_;    ///< their answers do
-  std::optional<RunPosition> from_;             ///< the run goes on from here
+  std::optional<RunPosition> from_;             ///< the run continues from here
   ResumeOptions options_;
   std::string start_words_;      ///< whose state the run starts from; empty: at rest
   StageSteps* steps_ = nullptr;  ///< of the present stage

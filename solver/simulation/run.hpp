@@ -18,7 +18,7 @@ namespace breccia {
 /// Set from outside (a signal handler) to end the run after the present step, with everything written.
 extern std::atomic<bool> stop_requested;
 
-/// Carries a case through all its stages and tells the sinks. Collective.
+/// Runs all stages of a case and informs the sinks. Collective.
 /// @param whole  the model built from the case, on the root; null elsewhere
 /// @param sinks  of this rank: those that write for all are on the root alone; frames hold the rank's own elements
 /// @param folder  of the run, for its control file and the extracts of its pipelines; null: it cannot be controlled,
@@ -33,8 +33,8 @@ struct ResumeOptions {
   bool extended = false;                                   ///< the last stage ends later than when it was begun
 };
 
-/// Goes on from a checkpoint of the case, on any number of ranks, as if nothing had happened; files beyond it are cut
-/// back to it. Collective. @param from  as read_checkpoint gave it
+/// Continues from a checkpoint of the case, on any number of ranks, with bitwise identical results; files beyond it are
+/// cut back to it. Collective. @param from  as read_checkpoint gave it
 /// Returns and throws as run_case.
 Summary resume_case(const case_::Case& input, Checkpoint from, const ResumeOptions& options,
                     const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator,
@@ -46,9 +46,9 @@ struct StartOptions {
   std::vector<std::string> cut;  ///< surfaces that either run breaks, where this one breaks others; empty: it does not
 };
 
-/// Carries a case through all its stages from the state of another one, on any number of ranks with the same bits.
-/// Time, steps and the works accounted go on counting. Under the same laws the energy residual does as well; under new
-/// ones what the first sample finds counts as put in, and the residual counts from there. Collective.
+/// Runs all stages of a case from the state of another one, bitwise identical on any number of ranks. Time, steps and
+/// accounted works continue. With the same laws the energy residual does as well; with new ones the energies of the
+/// first sample are the initial energy, and the residual is counted from there. Collective.
 /// @param from  as read_checkpoint gave it;  @pre input changes nothing that the state fixes (parent_case.hpp)
 /// Returns and throws as run_case.
 Summary start_case(const case_::Case& input, Checkpoint from, const StartOptions& options,

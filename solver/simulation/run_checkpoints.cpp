@@ -52,7 +52,7 @@ bool RunCheckpoints::due() {
   return by_steps || by_time || state.signals.received.checkpoint;
 }
 
-/// Both the run and its files go on whatever becomes of a checkpoint.
+/// The run and its files continue also after a failed checkpoint.
 template <class Work>
 void RunCheckpoints::attempt(Work&& work) {
   try {

@@ -18,11 +18,11 @@
 
 namespace breccia {
 
-/// Set from outside (a signal handler) to have a checkpoint written while the run goes on.
+/// Set from outside (a signal handler) to request a checkpoint during the run.
 extern std::atomic<bool> checkpoint_requested;
 
-/// When the checkpoints of a run are written, and what becomes of them. The steps wait while the state is copied; it is
-/// written while they go on. A checkpoint that fails is told as a warning, and the run goes on.
+/// Schedule and results of the checkpoints of a run. The steps wait while the state is copied; it is written while they
+/// continue. A failed checkpoint is a warning, and the run continues.
 class RunCheckpoints {
  public:
   /// Receives in words what became of a checkpoint; called on all ranks. The flag is false for a failure.
@@ -31,9 +31,9 @@ class RunCheckpoints {
   /// @pre input and partition outlive this object
   RunCheckpoints(const case_::Case& input, const Partition& partition, const RunFolder& folder, Tell tell);
 
-  /// What this rank has to tell the others at the end of a step.
+  /// Adds the signals of this rank to the others at the end of a step.
   void add_signals(StepSignals& signals);
-  /// To be asked after every step; moves on. The same on all ranks.
+  /// To be called after every step; advances. The same on all ranks.
   [[nodiscard]] bool due();
   /// Begins one of the present state, between two steps. Collective. @param position  but for what is known here
   void begin(RunPosition position);
@@ -48,7 +48,7 @@ class RunCheckpoints {
   void confirm(std::int64_t step) { sound_step_ = step; }
   [[nodiscard]] const RunFolder& folder() const { return folder_; }
 
-  /// Goes on as written in a checkpoint.
+  /// Continues as recorded in a checkpoint.
   void restore(const RunPosition& position);
   [[nodiscard]] const CheckpointReport& report() const { return report_; }
 

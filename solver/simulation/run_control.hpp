@@ -10,7 +10,7 @@
 
 namespace breccia {
 
-/// Order of the root that its control file has something to say; those for pipelines are the 32 bits below it.
+/// Order of the root that its control file has requests; those for pipelines are the 32 bits below it.
 inline constexpr std::uint64_t kControlOrder = std::uint64_t{1} << 32;
 
 /// Commands from a run's control file, which the root alone reads, for all ranks.
@@ -22,9 +22,9 @@ class RunControl {
     if (file && communicator.is_root()) file_.emplace(*file);
   }
 
-  /// Looks into the file; true on the root while there are lines not received yet.
+  /// Reads the file; true on the root while there are lines not received yet.
   [[nodiscard]] bool asks();
-  /// What has been asked, the same on all ranks. Collective.
+  /// The requests, the same on all ranks. Collective.
   [[nodiscard]] std::vector<Command> receive();
 
  private:

@@ -142,7 +142,7 @@ StatusLine RunOutput::status_line(bool paused) {
   StatusLine line;
   const double left = end_ - clock().time;
   line.step = clock().steps;
-  // Where elements are crushed the step may shrink without end; a count beyond this cannot be told apart from it.
+  // Where elements are crushed the step may shrink without end; a count beyond this cannot be distinguished from it.
   constexpr double kMostSteps = 1e18;
   line.steps_total = line.step + static_cast<std::int64_t>(std::llround(std::min(left / clock().dt, kMostSteps)));
   line.time = clock().time;

@@ -28,12 +28,12 @@ class RunOutput {
 
   /// The run starts from the state of another one. @param from  where that one was
   void start_from(const RunPosition& from);
-  /// @param from  where the run goes on; null: at its start
+  /// @param from  where the run continues; null: at its start
   void tell_start(bool insitu, const RunPosition* from);
   void tell_event(const std::string& kind, const std::string& text, bool accepted, const std::string& id = {});
   void begin_stage(const case_::Stage& stage);
 
-  /// To be asked once a step; moves on.
+  /// To be called once a step; advances.
   [[nodiscard]] bool frame_due() { return frames_.due(clock().time, clock().dt, clock().steps); }
   /// Likewise whether the step that comes is sampled.
   [[nodiscard]] bool line_due() { return histories_.due(clock().time, clock().dt, clock().steps); }
@@ -63,7 +63,7 @@ class RunOutput {
   [[nodiscard]] Observer& observer() { return observer_; }
 
  private:
-  /// Says once a run that frames are asked for more often than there are steps. @param told_before  if so, it has been
+  /// Warns once a run if the frame interval is below the time step. @param told_before  the warning was given already
   void tell_of_frame_interval(bool told_before);
   [[nodiscard]] std::int64_t broken_joints() const;  ///< of the whole model, now; collective
   [[nodiscard]] double wall() const;
@@ -79,12 +79,12 @@ class RunOutput {
   double end_;                   ///< s, of the run
   double start_time_ = 0;        ///< s, of the state that the run started from
   std::int64_t start_step_ = 0;  ///< likewise
-  double wall_before_ = 0;       ///< s, that the run took before it went on here
+  double wall_before_ = 0;       ///< s, that the run took before it was resumed
   Schedule histories_, frames_;
   std::string stage_name_;
   std::int64_t frame_number_ = 0, last_fragments_ = 0, last_broken_ = 0;
   std::int64_t resumed_at_ = -1;  ///< step; -1: begun here
-  bool within_stage_ = false;     ///< the run goes on in a stage that has begun before
+  bool within_stage_ = false;     ///< the run continues in a stage that has begun before
   bool frames_told_ = false;      ///< tell_of_frame_interval has had reason to
   SoundState sound_;
   RecentPace pace_;

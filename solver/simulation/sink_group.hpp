@@ -11,7 +11,7 @@
 
 namespace breccia {
 
-/// Tells the sinks of this rank what all ranks tell theirs.
+/// Informs the sinks of this rank; all ranks do the same.
 class SinkGroup {
  public:
   /// @pre sinks outlive this object

@@ -14,9 +14,9 @@ std::string words_of_files(const SoundState& sound, const RunFolder& folder) {
   const auto last = std::find_if(all.begin(), all.end(), [&](const auto& entry) { return entry.step <= sound.step; });
   const std::string frame = sound.frame >= 0 ? "frame " + std::to_string(sound.frame) : "no frame";
   if (last == all.end())
-    return "; sound before that: " + frame + ", no checkpoint (checkpoint.steps or checkpoint.interval asks for some)";
+    return "; sound before that: " + frame + ", no checkpoint (set checkpoint.steps or checkpoint.interval)";
   return "; sound before that: " + last->file.string() + ", " + frame + "; a case with [start] from = \"" +
-         folder.root.string() + "\", step = " + std::to_string(last->step) + " goes on from there under other settings";
+         folder.root.string() + "\", step = " + std::to_string(last->step) + "continues from there with other settings";
 }
 
 }  // namespace

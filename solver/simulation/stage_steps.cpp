@@ -12,12 +12,12 @@
 namespace breccia {
 namespace {
 
-constexpr std::int64_t kStepsBetweenLooks = 100;
-constexpr std::int64_t kSoonest = 10;  // steps between looks where joints come apart, or the step is still to grow
-constexpr std::int64_t kTaken = 2;     // steps until contact has the faces of a joint that was released
-constexpr double kGrowth = 1.5;        // of the step at a look: motions of a step foretell those of the next
-constexpr std::int64_t kCalm = 300;    // steps, see the class comment
-constexpr double kMostTenths = 300;    // of the step at rest; what is shorter still is told as this
+constexpr std::int64_t kEvaluationInterval = 100;
+constexpr std::int64_t kShortestInterval = 10;  // steps, after releases of joints, or while the step grows
+constexpr std::int64_t kContactDelay = 2;       // steps until contact has the faces of a joint that was released
+constexpr double kGrowth = 1.5;             // of the step at an evaluation: motions of a step predict those of the next
+constexpr std::int64_t kGrowthDelay = 300;  // steps, see the class comment
+constexpr double kMostTenths = 300;         // of the step at rest; limit of the reported number
 
 /// How many times a step has come below a tenth of that at rest: 0 above a tenth, 1 above a hundredth, and so on.
 int tenths(double share) { return static_cast<int>(std::clamp(-std::log10(share), 0.0, kMostTenths)); }
@@ -47,15 +47,15 @@ const char* remedy_of(StepLimit limit) {
 }  // namespace
 
 StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition,
-                       const StepLooks& looks)
+                       const StepSchedule& schedule)
     : input_(input),
       stage_(stage),
       partition_(partition),
-      looks_(looks),
+      schedule_(schedule),
       at_rest_(input.time.step > 0 ? 0.0 : step_at_rest(partition)) {}
 
 StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition)
-    : StageSteps(input, stage, partition, StepLooks{.calm = kCalm}) {
+    : StageSteps(input, stage, partition, StepSchedule{.growth_steps = kGrowthDelay}) {
   partition_.begin_stage(stage);
   partition_.domain().state.clock.dt = length(allowed());
   demand_countable();
@@ -73,17 +73,17 @@ double StageSteps::length(double allowed) const {
 }
 
 double StageSteps::allowed() {
-  const std::int64_t calm = looks_.calm + looks_.since;
-  looks_ = {.until = kStepsBetweenLooks};
+  const std::int64_t growth_steps = schedule_.growth_steps + schedule_.since;
+  schedule_ = {.until = kEvaluationInterval};
   if (input_.time.step > 0) return input_.time.step;
   const Clock& clock = partition_.state().clock;
   const double now = partition_.step_length(steps_to_look());
   judge(now);
   const double stable = input_.time.safety * now, most = kGrowth * clock.dt;
   if (clock.steps == 0 || stable <= most) return stable;
-  looks_.calm = calm;
-  if (calm < kCalm) return clock.dt;
-  looks_.until = kSoonest;
+  schedule_.growth_steps = growth_steps;
+  if (growth_steps < kGrowthDelay) return clock.dt;
+  schedule_.until = kShortestInterval;
   return most;
 }
 
@@ -91,36 +91,36 @@ void StageSteps::judge(double stable) {
   const Clock& clock = partition_.state().clock;
   const double share = stable / at_rest_;
   const bool ends = share < kSmallestStep;
-  // Where a run begins `check` has told it.
+  // At the start of a run `check` has reported it.
   const bool fell = clock.steps > 0 && tenths(share) > tenths(clock.dt / (input_.time.safety * at_rest_));
   if (!ends && !fell) return;
   const double rest = input_.stages.back().end - clock.time;
   const StableStep limiter = limit();
   const std::string text = "step " + std::to_string(clock.steps) + ", time " + number(clock.time) +
                            " s: the stable step has fallen to " + number(stable) + " s, " + number(100 * share) +
-                           " % of that of the model at rest, by " + limit_text(limiter) + "; what is left would take " +
+                           " % of that of the model at rest, by " + limit_text(limiter) + "; the rest would take " +
                            number(rest / (input_.time.safety * stable)) + " steps; " + remedy_of(limiter.limit);
-  if (ends) throw SimulationError(text + "; a time.step that the case gives is not looked at");
+  if (ends) throw SimulationError(text + "; a time.step given in the case is not checked");
   warning_ = text;
 }
 
 void StageSteps::fit_end() {
-  const StepLooks before = looks_;
+  const StepSchedule before = schedule_;
   partition_.domain().state.clock.dt = length(allowed());
-  looks_ = before;
+  schedule_ = before;
 }
 
 double StageSteps::steps_to_look() const {
-  return (input_.time.step > 0 ? 1.0 : input_.time.safety) * kStepsBetweenLooks;
+  return (input_.time.step > 0 ? 1.0 : input_.time.safety) * kEvaluationInterval;
 }
 
 StableStep StageSteps::limit() const { return partition_.stable_step(steps_to_look()); }
 
 void StageSteps::look() {
   if (partition_.state().signals.released)
-    looks_.until = std::min(looks_.until, std::max(kTaken, kSoonest - looks_.since));
-  ++looks_.since;
-  const bool due = --looks_.until == 0;
+    schedule_.until = std::min(schedule_.until, std::max(kContactDelay, kShortestInterval - schedule_.since));
+  ++schedule_.since;
+  const bool due = --schedule_.until == 0;
   if (input_.time.step > 0) return;
   if (due) adjust();
   if (at_last()) prepare_next();

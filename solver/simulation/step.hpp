@@ -4,7 +4,7 @@
 
 namespace breccia {
 
-/// What a step is asked for beside the motion.
+/// Optional results of a step beside the motion.
 struct StepOptions {
   bool sample = false;       ///< the energies at t_n are sampled on the way: Domain::sample
   StepSignals signals = {};  ///< of this rank, received by all ranks in the next step: Signals::received

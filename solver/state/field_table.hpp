@@ -23,7 +23,7 @@ enum class AcrossRanks {
 struct FieldUse {
   bool hashed = true;  ///< in the state hash. Not: what belongs to the mesh, and what depends on the number of ranks
   AcrossRanks across = AcrossRanks::alike;  ///< of the model
-  bool kept = true;                         ///< in checkpoints. Not: what ranks ask of each other for a step or two
+  bool kept = true;                         ///< in checkpoints. Not: requests between ranks, valid for a step or two
 };
 inline constexpr FieldUse kState{}, kNotHashed{.hashed = false}, kPassing{.hashed = false, .kept = false};
 inline constexpr FieldUse kSummed{.across = AcrossRanks::sum}, kSumNotHashed{false, AcrossRanks::sum};

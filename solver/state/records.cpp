@@ -102,7 +102,7 @@ std::vector<std::byte> pack(const Records& records, std::span<const std::uint8_t
 void keep(Records& records, std::span<const std::uint8_t> wanted) {
   DEMAND(wanted.size() == records.elements.size(), std::to_string(wanted.size()) + " marks");
   std::vector<ElementRecord> elements;
-  elements.swap(records.elements);  // the others are told by it
+  elements.swap(records.elements);  // the others are identified by it
   for_each_list(records, [&](const char*, auto& list) { erase_unwanted(elements, wanted, list); });
   std::size_t kept = 0;
   for (std::size_t e = 0; e < elements.size(); ++e) {

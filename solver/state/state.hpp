@@ -25,9 +25,9 @@ struct Clock {
 
 /// What ranks send each other besides the physics; all of them receive it in the next step.
 struct StepSignals {
-  bool stop = false;         ///< some rank asks for the end of the run
+  bool stop = false;         ///< a rank requests the end of the run
   bool broke = false;        ///< joints have broken on some rank since it was last counted
-  bool checkpoint = false;   ///< some rank asks for a checkpoint
+  bool checkpoint = false;   ///< a rank requests a checkpoint
   bool writing = false;      ///< some rank still writes one
   std::uint64_t orders = 0;  ///< of the root, fewer than 53 bits
 };
@@ -51,8 +51,8 @@ struct Signals {
   StepSignals received;                 ///< sent by the ranks a step ago, alike on all of them
   StepSignals sent;                     ///< by this rank in the last step
   double max_speed = 0;                 ///< m/s, of the nodes that this rank moves, after the last step
-  double motion = 0;                    ///< m, furthest that a node of any rank went in a step, received late
-  double fastest = 0;                   ///< m/s, largest max_speed of all ranks, received late
+  double motion = 0;                    ///< m, largest motion of a node of any rank in a step, received with delay
+  double fastest = 0;                   ///< m/s, largest max_speed of all ranks, received with delay
   std::int64_t fastest_step = -1;       ///< the step after which it was that; -1: before the first
   bool released = false;                ///< joints of some rank were released in the last step
   std::vector<GlobalId> released_here;  ///< joints of this rank that were released in the last step
@@ -62,7 +62,7 @@ struct Signals {
 /// On several ranks, after a step, so many of the last are not in Signals::motion yet.
 inline constexpr int kMotionLate = 2;
 
-/// The joints that the sweep does not look after.
+/// The joints that the sweep does not evaluate.
 struct JointSet {
   ActiveJoints active;
   std::vector<ReleasedJoint>
@@ -92,7 +92,7 @@ struct Counters {
 struct State {
   Clock clock;
   NodalState nodes;
-  Field<double> damping_work;  ///< (num_nodes) J dissipated by damping; empty until damping is asked for
+  Field<double> damping_work;  ///< (num_nodes) J dissipated by damping; empty without damping
   ElementFields elements;
   JointSet joints;
   ContactState contact;

@@ -36,7 +36,7 @@ class SequenceHash {
 };
 
 /// Hash of the whole state, for "are these two runs the same bits?": the sum of the hashes of its entities, each of
-/// which begins with the entity's global id. The same in whatever order and on whatever ranks entities are added.
+/// which begins with the entity's global id. Independent of the order and of the ranks on which entities are added.
 class StateHash {
  public:
   StateHash() = default;

@@ -144,7 +144,7 @@ LineFile::LineFile(std::filesystem::path path, std::size_t keep) : path_(std::mo
   ::close(descriptor_);
   throw output_error(
       path_,
-      too_short ? "this file has lost lines that were written before the checkpoint" : "cannot go on with this file",
+      too_short ? "this file has lost lines that were written before the checkpoint" : "cannot continue this file",
       error);
 }
 
@@ -155,7 +155,7 @@ void LineFile::append_line(std::string_view line) {
   whole += '\n';
   const int error = write_all(descriptor_, whole);
   if (error != 0) {
-    // The error that is reported is that of the write, whatever becomes of this.
+    // The reported error is that of the write, regardless of this result.
     [[maybe_unused]] const int cut = ::ftruncate(descriptor_, static_cast<off_t>(size_));
     throw output_error(path_, "cannot append a line to this file", error);
   }
@@ -163,7 +163,8 @@ void LineFile::append_line(std::string_view line) {
   reserve();
 }
 
-/// Room for the next lines, so that a run that ends because the disk is full can still say so. Not every system can.
+/// Space for the next lines, so that a run that ends because the disk is full can still report it. Not every system
+/// can.
 void LineFile::reserve() {
   if (size_ + kReserve / 2 > reserved_ &&
       ::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(size_), kReserve) == 0)

@@ -24,7 +24,7 @@ void create_folder(const std::filesystem::path& path);
 /// What stands under either name, a link above all, is replaced and not followed. @param depth  of `path`
 /// @pre one writer a file at a time; `path` names a file in a folder that exists
 /// @throws OutputError naming the file and the system's reason (disk full, no permission, missing folder, ...);
-///         then the old file stands as it was and the temporary is gone.
+///         then the old file is unchanged and the temporary is removed.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> content,
                            Depth depth = Depth::file);
 void write_file_atomically(const std::filesystem::path& path, std::string_view content, Depth depth = Depth::file);
@@ -51,8 +51,8 @@ void sync_file(const std::filesystem::path& path);
 /// loses no line that was appended.
 class LineFile {
  public:
-  /// Creates the file, a regular one in a run's folder, or empties it; or goes on behind its first bytes and drops the
-  /// others. Throws OutputError, also when the file is shorter than that.
+  /// Creates the file, a regular one in a run's folder, or empties it; or appends behind its first bytes and removes
+  /// the others. Throws OutputError, also when the file is shorter than that.
   explicit LineFile(std::filesystem::path path, std::size_t keep = 0);
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;

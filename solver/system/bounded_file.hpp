@@ -15,8 +15,8 @@ struct BoundedFile {
   std::string problem;  ///< in words, as Problem::what; empty: `text` is the whole content
 };
 
-/// Reads a whole file without ever waiting for it: regular files only (a pipe or device is opened but not read), and
-/// no more than `most` bytes are asked for, whatever the file claims of its size.
+/// Reads a whole file without ever waiting for it: regular files only (a pipe or device is opened but not read), and no
+/// more than `most` bytes are read, for any stated file size.
 /// @param most  bytes of the largest file that is read
 /// Throws nothing but bad_alloc.
 [[nodiscard]] BoundedFile read_bounded(const std::filesystem::path& file, std::uint64_t most);

@@ -32,7 +32,7 @@ namespace {
 
 // First byte of what a child reports; kForbiddenMark is one of them too.
 constexpr char kResult = 'R', kNoMemory = 'M', kNotConfined = 'N';
-constexpr int kGlance = 50;  // ms between two looks at clock, memory and signals
+constexpr int kPollInterval = 50;  // ms between two checks of clock, memory and signals
 
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool kAddressSpaceCanBeLimited = false;  // the sanitizer reserves terabytes of addresses
@@ -42,7 +42,7 @@ constexpr bool kAddressSpaceCanBeLimited = true;
 
 std::uint64_t page() { return static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)); }
 
-/// Column 0: address space, column 1: resident memory; bytes. 0 when it cannot be told.
+/// Column 0: address space, column 1: resident memory; bytes. 0 if unknown.
 std::uint64_t memory_of(pid_t process, int column) {
   std::ifstream file("/proc/" + std::to_string(process) + "/statm");
   std::uint64_t pages = 0;
@@ -146,7 +146,7 @@ bool take(int descriptor, std::vector<std::byte>& into) {
   return got > 0;
 }
 
-/// Growth of the address space beyond which a crash is put down to memory: libraries do not look whether they got it.
+/// Growth of the address space beyond which a crash is attributed to memory: libraries do not check allocations.
 constexpr std::uint64_t kCrashShare = 4;  // a quarter of the limit
 
 /// Reads the report to its end, or gives up: Kind::finished, out_of_time, out_of_memory or interrupted.
@@ -157,7 +157,7 @@ ChildEnd::Kind listen(pid_t process, const ChildLimits& limits, int report, std:
   const std::uint64_t most = limits.bytes > 0 ? memory_of(process, 1) + limits.bytes : 0;
   for (;;) {
     pollfd look{report, POLLIN, 0};
-    const int ready = ::poll(&look, 1, kGlance);
+    const int ready = ::poll(&look, 1, kPollInterval);
     if (ready > 0 && !take(report, bytes)) return ChildEnd::Kind::finished;
     if (limits.bytes > 0 && memory_of(process, 0) > before + limits.bytes / kCrashShare) grew = true;
     if (interruption != 0) return ChildEnd::Kind::interrupted;
@@ -196,7 +196,7 @@ void read_report(ChildEnd& end, std::vector<std::byte> bytes) {
 ChildEnd run_in_child(const ChildLimits& limits, const std::function<void()>& prepare,
                       const std::function<std::vector<std::byte>()>& work) {
   Pipe report, words;
-  // What the child says beyond a pipe's size is dropped, so that the child never waits for a reader.
+  // Output of the child beyond a pipe's size is dropped, so that the child never waits for a reader.
   ::fcntl(words.writing, F_SETFL, O_NONBLOCK);
   ::fcntl(words.reading, F_SETFL, O_NONBLOCK);
   ::fcntl(report.writing, F_SETPIPE_SZ, 1 << 20);

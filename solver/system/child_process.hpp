@@ -26,11 +26,11 @@ inline constexpr int kKeptDescriptor = 4;  ///< number of ChildLimits::kept in t
 struct ChildEnd {
   enum class Kind {
     finished,       ///< `result` is what the work returned
-    forbidden,      ///< it tried what a confined process may not; `text` says what
+    forbidden,      ///< it tried what a confined process may not; `text` names it
     out_of_time,    ///< ended after limits.seconds
     out_of_memory,  ///< ended by its limit, or by the system's
     crashed,        ///< by `signal`, or by leaving without a result; `text` is the last line it wrote to stderr
-    interrupted,    ///< the parent was asked to end (system/interruption.hpp)
+    interrupted,    ///< the parent was requested to end (system/interruption.hpp)
     not_confined,   ///< this system cannot confine a process: nothing was done
   };
   Kind kind = Kind::crashed;
@@ -43,10 +43,11 @@ struct ChildEnd {
 /// the child alone. It has its own stdin (empty), stdout and stderr (kept for `text`), no other descriptor of the
 /// parent's than limits.kept, no core dump, and dies with the parent. Signals have their default meaning in it.
 /// The work may read files (limits.readable), take memory up to the limit and start threads; with limits.confined it
-/// may not write, run, connect or signal (confinement.hpp). Whatever it does ends as one of ChildEnd::Kind, never in
-/// this process.
+/// may not write, run, connect or signal (confinement.hpp). Every failure ends as one of ChildEnd::Kind, never in this
+/// process.
 /// @param limits   seconds > 0, counted from the fork; bytes beyond what this process has at that moment
-/// @param prepare  runs first, with refusals as errors: libraries that open files of their own when they start go on
+/// @param prepare  runs first, with refusals as errors: libraries that open files of their own when they start then
+/// continue
 /// @param work     runs in the child; what it changes there is lost. It returns any number of bytes. Neither may throw;
 ///                 std::bad_alloc alone is taken as the end of memory
 /// Throws OutputError when the system refuses a process or a pipe; nothing is left behind then.

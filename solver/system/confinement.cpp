@@ -33,7 +33,7 @@ constexpr std::uint32_t kFirstForeignCall = 0xffffffff;
 
 constexpr std::uint32_t kOpensForWriting = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC | O_APPEND;
 
-/// A system call and what a person is told about it; `path` is the argument that names a file, -1: none.
+/// A system call and its description in messages; `path` is the argument that names a file, -1: none.
 struct Forbidden {
   long number;
   const char* words;
@@ -57,8 +57,8 @@ constexpr Forbidden kForbidden[] = {
     {SYS_utimensat, "change a file's times", 1},
     {SYS_socket, "open a network connection"},
     {SYS_kill, "send a signal"},
-    {SYS_ptrace, "look into another process"},
-    {SYS_process_vm_readv, "look into another process"},
+    {SYS_ptrace, "read the memory of another process"},
+    {SYS_process_vm_readv, "read the memory of another process"},
     {SYS_process_vm_writev, "write into another process"},
 #ifdef SYS_fork  // calls that newer architectures do without
     {SYS_fork, "start a process"},
@@ -243,7 +243,7 @@ const char* argument_of(const void* context, int index) {
   // NOLINTEND(performance-no-int-to-ptr)
 }
 
-/// Tells what was tried and ends the process; calls nothing that a signal handler may not.
+/// Reports the attempt and ends the process; calls nothing that a signal handler may not.
 void tell_and_end(int, siginfo_t* info, void* context) {
   const char mark[2] = {kForbiddenMark, '\0'};
   say(mark);
@@ -279,7 +279,7 @@ bool confine_this_process(int report, Refusal refusal) {
   program.when_bits(SYS_open, 1, kOpensForWriting, trap, allow);
 #endif
   program.when_bits(SYS_clone, 0, CLONE_THREAD, allow, trap);
-  // The C library falls back to clone and openat, whose arguments can be looked at.
+  // The C library falls back to clone and openat, whose arguments can be checked.
   program.when(SYS_clone3, SECCOMP_RET_ERRNO | ENOSYS);
   program.when(SYS_openat2, SECCOMP_RET_ERRNO | ENOSYS);
   program.when(SYS_ioctl, SECCOMP_RET_ERRNO | ENOTTY);

@@ -13,15 +13,15 @@ namespace breccia {
 /// queues send before they kill.
 inline constexpr std::array kEndingSignals{SIGINT, SIGTERM, SIGHUP, SIGUSR2, SIGXCPU};
 
-/// One that is ignored stays ignored: `nohup` and shells that start a job in the background ask for that.
+/// An ignored signal stays ignored, as `nohup` and shells that start a job in the background require.
 inline void handle_unless_ignored(int signal, void (*handler)(int)) {
   struct sigaction now {};
   if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) return;
   std::signal(signal, handler);
 }
 
-/// Number of the signal that asked this process to end; 0: none has.
-/// Set by a handler in main; long work that can be given up looks at it.
+/// Number of the signal that requested the end of this process; 0: none. Set by a handler in main; long work that can
+/// be aborted polls it.
 inline std::atomic<int> interruption{0};
 
 /// Thrown where work that has written nothing is given up because of it; main turns it into 128 + the signal.

@@ -44,7 +44,7 @@ class Descriptor {
   int value_;
 };
 
-/// How many names at the end of a path belong to a run's folder and are looked up without following a link.
+/// How many names at the end of a path belong to a run's folder and are resolved without following a link.
 enum class Depth : int {
   named = 0,     ///< the user named the file itself: a link to a regular file is followed
   file = 1,      ///< a file of a run's folder
@@ -162,7 +162,7 @@ inline constexpr std::uint64_t kLargestContent = std::uint64_t{1} << 32;
   if (::fstat(file.get(), &about) != 0 || about.st_size < 0) return {};
   const auto size = static_cast<std::uint64_t>(about.st_size);
   const std::uint64_t wanted = size > begin ? std::min(size - begin, most) : 0;
-  constexpr std::uint64_t kPiece = 1 << 24;  // memory is taken as bytes arrive, whatever the file claims of its size
+  constexpr std::uint64_t kPiece = 1 << 24;  // memory is allocated as bytes arrive, for any stated file size
   std::string text;
   while (text.size() < wanted) {
     const std::size_t had = text.size();

@@ -96,22 +96,22 @@ def ask(name, value, answer):
     print("answered", answer, file=log)
 
 
-ask("Ask", live_steering.ASKED.index("stop"), "this view was not opened by `breccia live`")
+ask("Request", live_steering.REQUESTS.index("stop"), "this view was not opened by `breccia live`")
 steering._program = os.environ["STEERING"]
 print("folder", steering.folder, file=log)
 ask("FrameInterval", "1 ms", "frame_interval 1 ms: done")
 ask("FrameInterval", "soon", "frame_interval")
-wait("a refusal", lambda: "asked to" not in words() and "frame_interval soon: " in words())
+wait("a refusal", lambda: "requested: " not in words() and "frame_interval soon: " in words())
 print("refused", " ".join(words().split("frame_interval soon: ")[1].split()), file=log)
-ask("Ask", live_steering.ASKED.index("pause"), "pause: done")
+ask("Request", live_steering.REQUESTS.index("pause"), "pause: done")
 end = time.time() + 1.0
 wait("nothing", lambda: time.time() > end)  # what was under way still comes
 held, end = step(), time.time() + 1.0
 wait("nothing", lambda: time.time() > end)
 print("stood" if step() == held else "ran on", file=log)
-ask("Ask", live_steering.ASKED.index("resume"), "resume: done")
+ask("Request", live_steering.REQUESTS.index("resume"), "resume: done")
 wait("further steps", lambda: step() > held)
-ask("Ask", live_steering.ASKED.index("extract"), "extract: done")
+ask("Request", live_steering.REQUESTS.index("extract"), "extract: done")
 fractures = live_view.pictures.cells_of(bodies.sources["fractures"])
 ask("Opening", "far", "'far' is no length")
 panel.GetProperty("Opening").SetElement(0, "1000 m")
@@ -120,7 +120,7 @@ wait("words", lambda: "this view shows cracks open by more than 1000 m; the run 
 panel.GetProperty("Opening").SetElement(0, "")
 wait("all cracks", lambda: live_view.pictures.cells_of(bodies._cracks) >= fractures > 0)
 print("cracks by opening", file=log)
-ask("Ask", live_steering.ASKED.index("stop"), "asked to stop")
+ask("Request", live_steering.REQUESTS.index("stop"), "requested: stop")
 wait("the end", lambda: "the run has ended" in words())
 print("ready with all", file=log)
 os._exit(0)

@@ -271,7 +271,7 @@ class LiveView(unittest.TestCase):
 
     def assert_let_go_and_complete(self, name, before):
         """The run has told that nobody answered, once, and goes on, and ends when it is told to."""
-        self.wait("a word", lambda: "did not answer, and was let go" in self.text(name + ".log"), name + ".log")
+        self.wait("a word", lambda: "ParaView did not respond within 30 s; the connection was closed" in self.text(name + ".log"), name + ".log")
         self.assertEqual(self.text(name + ".log").count("\n"), 1, self.text(name + ".log"))
         self.wait("steps", lambda: self.steps(name) > before)
 

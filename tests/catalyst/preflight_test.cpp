@@ -131,7 +131,7 @@ TEST(Preflight, NamesEveryProblemOnALineOfItsOwn) {
           script("missing.py") + ": No such file or directory",
           testing::AllOf(testing::StartsWith(script("syntax_error.py") + ": "),
                          testing::EndsWith("(syntax_error.py:3)")),
-          "surface: knows no parameter 'width', it has none", "live: the port must be 1 to 65535, it is 70000",
+          "surface: has no parameter 'width', it has none", "live: the port must be 1 to 65535, it is 70000",
           "volume: writes into the same folder as the pipeline volume"));
 }
 
@@ -142,11 +142,11 @@ TEST(Preflight, KnowsTheParametersOfItsOwnScriptsAndOfAUsersTheNearestFirst) {
   std::istringstream lines(preflight(config));
   std::string line;
   ASSERT_TRUE(std::getline(lines, line));
-  EXPECT_THAT(line, testing::StartsWith("stress: knows no parameter 'widht'; allowed: width, "));
+  EXPECT_THAT(line, testing::StartsWith("stress: has no parameter 'widht'; allowed: width, "));
   ASSERT_TRUE(std::getline(lines, line));
-  EXPECT_EQ(line, script("exported.py") + ": knows no parameter 'anything', it has none");
+  EXPECT_EQ(line, script("exported.py") + ": has no parameter 'anything', it has none");
   ASSERT_TRUE(std::getline(lines, line));
-  EXPECT_EQ(line, script("count_cells.py") + ": knows no parameter 'factr'; allowed: factor, label");
+  EXPECT_EQ(line, script("count_cells.py") + ": has no parameter 'factr'; allowed: factor, label");
 }
 
 TEST(Preflight, RefusesANumberWhereAScriptAsksForATextAndTheOtherWayRound) {

@@ -192,7 +192,7 @@ TEST(Catalyst2Channels, AnImplementationThatDoesNotStartIsTold) {
             "is not found)");
   standin.initialize_status = 0;
   standin.about = "stub";
-  EXPECT_NE(refusal(config).find("'standin' of Catalyst 2 was asked for and 'stub' started"), std::string::npos);
+  EXPECT_NE(refusal(config).find("'standin' of Catalyst 2 was requested and 'stub' started"), std::string::npos);
   standin.about = "standin";
   EXPECT_EQ(refusal(config), "");
   EXPECT_EQ(standin.live_nodes, 0);

@@ -84,12 +84,12 @@ TEST_P(Catalyst2Faults, AnImplementationOfAnotherVersionIsRefusedBeforeTheRun) {
 
 TEST_P(Catalyst2Faults, AnotherImplementationThanThatAskedForIsRefusedBeforeTheRun) {
   const CatalystRun run(GetParam(), kBackend + kPipelines, "STANDIN_ABOUT=stub");
-  expect_refused(run, "implementation 'standin' of Catalyst 2 was asked for and 'stub' started");
+  expect_refused(run, "implementation 'standin' of Catalyst 2 was requested and 'stub' started");
 }
 
 TEST_P(Catalyst2Faults, AMissingImplementationIsRefusedBeforeTheRun) {
   const CatalystRun run(GetParam(), kBackend + kPipelines, "CATALYST_IMPLEMENTATION_NAME=nobody");
-  expect_refused(run, "has no implementation 'nobody'; looked for ");
+  expect_refused(run, "has no implementation 'nobody'; tried ");
 }
 
 TEST_P(Catalyst2Faults, ALibraryThatIsNoLibcatalystIsRefusedBeforeTheRun) {
@@ -101,7 +101,7 @@ TEST_P(Catalyst2Faults, ALibraryThatIsNoLibcatalystIsRefusedBeforeTheRun) {
 TEST_P(Catalyst2Faults, ValuesAtPointsAreRefusedBeforeTheRun) {
   const CatalystRun run(GetParam(),
                         kBackend + "--set 'insitu.pipeline=[{name=\"surface\", parameters={point_data=\"stress\"}}]'");
-  expect_refused(run, "surface: values at points, point_data, are not handed to Catalyst 2");
+  expect_refused(run, "surface: values at points, point_data, are not passed to Catalyst 2");
 }
 
 INSTANTIATE_TEST_SUITE_P(OfRanks, Catalyst2Faults, testing::Values(1, 2), testing::PrintToStringParamName());

@@ -137,7 +137,7 @@ TEST(Catalyst2Preflight, SaysWhatCannotWorkAndWhatToDo) {
       told(std::string(BRECCIA_CATALYST_SCRIPTS) + "/../../catalyst/scripts/misspelt.py", BRECCIA_STANDIN, "paraview");
   expect(misspelt, "misspelt.py: the source 'fractrues' is no channel; allowed: fractures, ");
   expect(misspelt, "misspelt.py: 'von_misses' is no array of surface; allowed: von_mises, ");
-  expect(told("surface", BRECCIA_STANDIN, "nobody"), "has no implementation 'nobody'; looked for ");
+  expect(told("surface", BRECCIA_STANDIN, "nobody"), "has no implementation 'nobody'; tried ");
   expect(told("surface", "/nowhere/libcatalyst.so.3", "standin"),
          "libcatalyst, the library of Catalyst 2, cannot be opened (/nowhere/");
   expect(told("surface", "/nowhere/libcatalyst.so.3", "standin"),

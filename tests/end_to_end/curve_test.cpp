@@ -150,7 +150,7 @@ TEST_F(Curves, AreNoSurfaces) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(
       outcome.err.find("stage[0].pressure[0].surface: this is a curve or point of the mesh, where a surface group is "
-                       "asked for; allowed: the mesh has none; given: left"),
+                       "required; allowed: the mesh has none; given: left"),
       std::string::npos)
       << outcome.err;
 }

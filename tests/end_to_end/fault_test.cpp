@@ -42,7 +42,7 @@ TEST_P(Fault, NamesTheLastSoundCheckpointFromWhichACaseWithoutItsCauseGoesOn) {
   std::smatch named;
   static const std::regex kNamed(
       R"(sound before that: (\S+/step_0*(\d+)\.h5), frame (\d+); a case with \[start\] from = )"
-      R"re("(\S+)", step = (\d+) goes on from there)re");
+      R"re("(\S+)", step = (\d+) continues from there with other settings)re");
   ASSERT_TRUE(std::regex_search(failed.err, named, kNamed)) << failed.err;
   EXPECT_TRUE(fs::exists(named[1].str()));
   EXPECT_EQ(named[2], named[5]);
@@ -63,7 +63,8 @@ TEST_P(Fault, SaysThatThereIsNoCheckpointFromBeforeIt) {
   const Outcome failed = run("failed", driven("1e6 m/s"), "--set checkpoint.keep=0");
   EXPECT_EQ(failed.exit_code, 3) << failed.err;
   EXPECT_NE(failed.err.find("sound before that: frame "), std::string::npos) << failed.err;
-  EXPECT_NE(failed.err.find("no checkpoint (checkpoint.steps or checkpoint.interval"), std::string::npos) << failed.err;
+  EXPECT_NE(failed.err.find("no checkpoint (set checkpoint.steps or checkpoint.interval)"), std::string::npos)
+      << failed.err;
 }
 
 /// A bar of soft elements that share nodes, drawn out until they are thirty times as long.
@@ -85,7 +86,7 @@ TEST_P(Fault, WarnsOnceOfATimeStepThatFallsToATenth) {
   ASSERT_NE(first, std::string::npos) << drawn.err;
   EXPECT_EQ(drawn.err.find(words, first + 1), std::string::npos) << drawn.err;
   static const std::regex kSaid(R"(step \d+, time \S+ s: the stable step has fallen to \S+ s, \S+ % of that of the )"
-                                R"(model at rest, by element \d+; what is left would take \S+ steps; )");
+                                R"(model at rest, by element \d+; the rest would take \S+ steps; )");
   EXPECT_TRUE(std::regex_search(drawn.err, kSaid)) << drawn.err;
   EXPECT_NE(read_text(folder("drawn") / "status.jsonl").find(words), std::string::npos);
 }

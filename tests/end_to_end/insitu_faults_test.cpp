@@ -45,7 +45,7 @@ TEST_P(InSituFaults, ADisplayThatDiesInTheMiddleOfAPictureCostsTheRunItsPictures
   const FaultyRun plain(1, ""), run(GetParam(), script("loses_display.py"));
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_EQ(run.hash(), plain.hash());
-  EXPECT_TRUE(run.tells("loses_display.py: the X display on which it draws has gone")) << run.outcome.err;
+  EXPECT_TRUE(run.tells("loses_display.py: the X display on which it draws has closed")) << run.outcome.err;
   EXPECT_LE(run.lines(), 2) << run.outcome.err;  // and that it is switched off
 }
 

@@ -274,7 +274,7 @@ TEST(Program, CheckTellsHowRanksWouldShareTheModel) {
       call("check " + scratch.write("case.toml", kSmallCase) + " --ranks 3 --set mesh.raster.boxes=[12,1,1]");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   for (const char* fragment :
-       {"1152 elements, 3 domains, rcb", "predicted efficiency", "cut faces", "Contact is not counted"}) {
+       {"1152 elements, 3 domains, rcb", "predicted efficiency", "cut faces", "Contact is not included"}) {
     EXPECT_NE(outcome.out.find(fragment), std::string::npos) << fragment << " in\n" << outcome.out;
   }
 }

@@ -287,7 +287,7 @@ TEST_F(Resume, RefusedForALostFileLeavesTheFolderAsItWas) {
     for (const std::string& target : {std::string(), " -o " + quoted("target")}) {
       const Outcome refused = resume(name, 1, target);
       EXPECT_EQ(refused.exit_code, 2) << refused.err;
-      EXPECT_NE(refused.err.find("this file is gone"), std::string::npos) << refused.err;
+      EXPECT_NE(refused.err.find("this file is missing"), std::string::npos) << refused.err;
       EXPECT_NE(refused.err.find("[start] from"), std::string::npos) << "the way on: " << refused.err;
       EXPECT_TRUE(files_in(folder(name)) == before) << name << target;
       EXPECT_FALSE(fs::exists(folder("target")));

@@ -191,7 +191,7 @@ TEST(Solid, WithoutACaseIsMeshedAndItsGroupsAndBoxTold) {
     EXPECT_NEAR(told["box"]["upper"][a].get<double>(), kUpper[a], kRoundOff * kUpper[a]);
   const Outcome refused = call("mesh " + file + " --set mesh.size=1");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("is no case file: a geometry is meshed as it is"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("is no case file: a geometry is meshed without a case"), std::string::npos) << refused.err;
 }
 
 }  // namespace

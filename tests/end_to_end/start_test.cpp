@@ -167,12 +167,12 @@ TEST_F(Start, RefusesEveryChangeThatTheStateDoesNotAllow) {
   for (const Change& change : std::vector<Change>{
            {"cells = [2, 2, 1]", "cells = [2, 2, 2]", "mesh.raster.cells", "elements and nodes"},
            {"2340 kg/m3", "2400 kg/m3", "material[0].density", "momentum"},
-           {"joints = \"breakable\"", "joints = \"unbreakable\"", "material[0].joints", "who may touch whom"},
+           {"joints = \"breakable\"", "joints = \"unbreakable\"", "material[0].joints", "contact couples"},
            {"penalty_factor = 10", "penalty_factor = 10\nlaw = \"independent_peaks\"", "joint[0].law", "damage"},
            {"penalty_factor = 10", "penalty_factor = 10\npoints = \"mid_edge\"", "joint[0].points", "damage"},
-           {"weibull_modulus = 8", "weibull_modulus = 9", "joint[0].weibull_modulus", "against the mean"},
+           {"weibull_modulus = 8", "weibull_modulus = 9", "joint[0].weibull_modulus", "relative to the mean"},
            {"weibull_modulus = 8", "weibull_modulus = 8\nweibull_seed = 2", "joint[0].weibull_seed",
-            "against the mean"},
+            "relative to the mean"},
            {"[\"1 m/s\", \"2 m/s\"]", "[\"1 m/s\", \"3 m/s\"]", "initial_velocity[0].random", "first run"},
            {"radius = \"26 mm\"", "radius = \"27 mm\"", "sphere.radius", "press on it"},
            {"[[stage]]", "[contact_points]\nper_face = 6\n[[stage]]", "contact_points.per_face", "points"},
@@ -336,7 +336,7 @@ TEST_F(Start, TakesTheLastStateOfARunThatHasEndedOnly) {
   ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
   const Outcome early = attempt("refused", started() + laws() + kPush);
   EXPECT_EQ(early.exit_code, 2);
-  EXPECT_NE(early.err.find("start.from: this run goes on"), std::string::npos) << early.err;
+  EXPECT_NE(early.err.find("start.from: this run is in progress"), std::string::npos) << early.err;
   run("by_step", started("parent", "step = 100\n") + laws() + kPush, 1, "--set time.max_steps=2");
   close(lock);
   run("ended", started() + laws() + kPush, 1, "--set time.max_steps=2");

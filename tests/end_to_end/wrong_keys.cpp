@@ -124,7 +124,7 @@ const std::vector<Wrong>& wrong_keys() {
       {"csv_beyond_sense",
        "[output]",
        csv("file = \"far.csv\""),
-       {"stage[0].pressure[0].value", "beyond what can be computed"}},
+       {"stage[0].pressure[0].value", "too large to be computed"}},
       {"csv_of_other_letters", "[output]", csv("file = \"latin.csv\""), {"latin.csv:3: ", "column 2 is no number"}},
       {"csv_of_a_name_with_a_blank",
        "[output]",

@@ -231,7 +231,7 @@ def unfinished():
     going.send_signal(signal.SIGSTOP)
     shown = plain(folder)
     expect(any(e[1].get("class", "").startswith("state") and e[2] == "running" for e in shown.all("span")), "it is running")
-    expect("The run goes on" in shown.source, "the page says that the run goes on")
+    expect("The run is in progress" in shown.source, "the page states that the run is in progress")
     going.kill()
     going.wait()
     shown = plain(folder)

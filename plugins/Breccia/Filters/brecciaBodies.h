@@ -12,7 +12,7 @@ namespace breccia {
 /// What users call the bodies of a run, from the field data of its elements, where the reader puts it.
 class BodyNames {
  public:
-  /// Of the elements in `input`; where they tell none, as in a Catalyst pipeline, bodies go by their numbers.
+  /// Of the elements in `input`; without names, as in a Catalyst pipeline, bodies are named by their numbers.
   explicit BodyNames(vtkDataObject* input);
   /// "body 12" where there is no name; empty for bodies below 0, which are none.
   std::string Of(vtkTypeInt64 body) const;

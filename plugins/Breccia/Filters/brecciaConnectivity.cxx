@@ -26,7 +26,7 @@ class Sets {
   std::vector<vtkIdType> parent_;
 };
 
-/// A face between elements of two ranks, told by the rank of the element of lower id.
+/// A face between elements of two ranks, sent by the rank of the element of lower id.
 struct Edge {
   vtkTypeInt64 low, high, broken;
 };

@@ -20,8 +20,8 @@ struct Connectivity {
 
 /// Connected parts through faces whose joint has not failed, across ranks.
 /// @param broken  ids of the failed joints that this rank knows of, 4 element + face; those of elements that are not
-/// here as well Collective. Near O(elements) and, for what ranks tell each other, O(faces between ranks + failed
-/// joints). The result does not depend on how elements and joints are shared out.
+/// here as well Collective. Near O(elements) and, for the communication, O(faces between ranks + failed joints). The
+/// result does not depend on the distribution of elements and joints.
 Connectivity Connect(const Elements& elements, const std::vector<vtkTypeInt64>& broken, const Ranks& ranks);
 
 }  // namespace breccia

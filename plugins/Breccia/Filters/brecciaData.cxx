@@ -136,7 +136,7 @@ bool LacksBlock(vtkDataObject* input, const char* name, const char* mark) {
     auto* set = vtkDataSet::SafeDownCast(input);
     return set && !set->GetCellData()->HasArray(mark);
   }
-  bool lacks = false;  // an input without any data set, as on a rank without a part, tells nothing
+  bool lacks = false;  // an input without any data set, as on a rank without a part, is ignored
   vtkSmartPointer<vtkCompositeDataIterator> it;
   it.TakeReference(tree->NewIterator());
   for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {

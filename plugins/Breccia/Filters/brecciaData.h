@@ -20,7 +20,7 @@ class vtkTable;
 /// all quantities SI.
 namespace breccia {
 
-/// The input lacks something; what() tells what, and what there is instead.
+/// The input is incomplete; what() names the missing part, and the existing ones.
 class BadInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -92,7 +92,7 @@ struct Cracks {
   std::vector<vtkTypeInt64> mode;    ///< 1, 2, 3: mixed
   vtkIdType Count() const { return static_cast<vtkIdType>(id.size()); }
 };
-/// Looks into `joints`, or, if that is null, into `input`. Collective; throws as above.
+/// Reads `joints`, or, if that is null, `input`. Collective; throws as above.
 Cracks FindCracks(vtkDataObject* input, vtkDataObject* joints, const Ranks& ranks);
 
 /// Where elements stand in a list, by their ids.

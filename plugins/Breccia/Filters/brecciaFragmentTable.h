@@ -33,9 +33,9 @@ struct Fragment {
   double Flatness() const { return semi_axes[1] > 0 ? semi_axes[2] / semi_axes[1] : 0; }
 };
 
-/// All fragments of the model, ascending by id: alike on all ranks, and to the last bit whatever their number. Sums
-/// are made in integers of 2^-90 of the largest term of each kind, 128 bits wide, so that their order does not matter.
-/// What is not finite makes the numbers of its fragment that depend on it no numbers (NaN).
+/// All fragments of the model, ascending by id: the same on all ranks, and bitwise the same for any number of ranks.
+/// Sums are made in integers of 2^-90 of the largest term of each kind, 128 bits wide, so that their order does not
+/// matter. What is not finite makes the numbers of its fragment that depend on it no numbers (NaN).
 /// The elements need the arrays mass, kg, and velocity (3) of their centroids, m/s: throws BadInput on all ranks where
 /// they lack. Collective. O(elements + fragments of all ranks).
 std::vector<Fragment> Tabulate(const Elements& elements, const Connectivity& connectivity, const Ranks& ranks);

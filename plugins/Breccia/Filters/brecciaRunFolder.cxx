@@ -39,7 +39,7 @@ fs::path FolderOf(const std::string& given) {
 /// Empty where there is no regular file: the folder may be another's.
 std::string ContentOf(const fs::path& path, Depth depth) { return run_folder::read_content(path, depth).text; }
 
-/// An HDF5 file that is as long as its superblock says (HDF5 File Format Specification, II.A).
+/// An HDF5 file of the length in its superblock (HDF5 File Format Specification, II.A).
 bool IsWhole(const fs::path& path) {
   const Opened file = open_regular(path, O_RDONLY, Depth::subfolder);
   std::array<char, 48> head{};

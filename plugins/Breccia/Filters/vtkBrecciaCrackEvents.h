@@ -1,6 +1,6 @@
 /**
  * @class vtkBrecciaCrackEvents
- * @brief failed joints gathered into events, as acoustic emission sees them
+ * @brief failed joints grouped into events, as in acoustic emission
  *
  * Joints of which one is near the other in space and in time belong to one event (single linkage). Outputs, on the
  * first rank: a point for each event, with its arrays; the same as a table; the distribution of magnitudes, with the
@@ -9,8 +9,8 @@
  * Moment tensor of an event: sum of A (lambda (u . n) I + mu (u n + n u)) over its joints of area A, normal n and
  * displacement jump u [Aki and Richards, Quantitative Seismology, 3.2]. The jump between the two faces, their normal,
  * area and centre are those at the time of failure, between the frames before and after it in proportion to the time
- * (MomentAt: time of failure); of the time shown where that is asked for, and where the input has one time only; the
- * opening along the normal where elements are not given. Scalar moment M0 = sqrt(M:M / 2); magnitude 2/3 (lg M0 -
+ * (MomentAt: time of failure); of the time shown if so selected, and if the input has one time only; the opening along
+ * the normal where elements are not given. Scalar moment M0 = sqrt(M:M / 2); magnitude 2/3 (lg M0 -
  * 9.1) [Hanks and Kanamori 1979, in N m]; energy magnitude 2/3 lg E - 2.9, E in J [Choy and Boatwright 1995]. b-value:
  * lg e / (mean - M_c) over M >= M_c [Aki 1965], M_c where most events are [Wiemer and Wyss 2000] unless given.
  */

@@ -28,11 +28,11 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaFilter : public vtkDataObjectAlgorithm {
   /// Fills the outputs. @param joints  null: not given. Throws breccia::BadInput on all ranks or on none.
   virtual void Make(vtkDataObject* input, vtkDataObject* joints, vtkInformationVector* outputs) = 0;
 
-  /// The first input at another time, on all ranks: its own frames are read for that. What is held of the input before
-  /// is no more; ask for the time shown at the end, which others look at. Throws breccia::BadInput on all ranks when
+  /// The first input at another time, on all ranks: its own frames are read for that. Former pointers into the input
+  /// are invalid; request the shown time at the end, for other filters. Throws breccia::BadInput on all ranks when
   /// there is none. (The pipeline's way, CONTINUE_EXECUTING, never ends when the input fails.)
   vtkDataObject* InputAt(double time);
-  /// s, of the first input's frames, ascending; as told before the data.
+  /// s, of the first input's frames, ascending; known before the data.
   std::vector<double> Times;
 
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;

@@ -1,12 +1,12 @@
 /**
  * @class vtkBrecciaFragments
- * @brief what hangs together after a body has broken
+ * @brief connected parts of broken bodies
  *
  * Finds the connected parts of a Breccia run's elements through joints that have not failed, across
- * pieces and ranks, and tells of each its mass, shape and motion. Outputs: the elements, with the arrays fragment,
- * fragment_mass, fragment_diameter and fragment_speed; the table of fragments; the sieve curve with fits in its
- * columns and d50, d80 and the fits' parameters in its field data. Tables are on the first rank. Ids and tables are
- * the same, to the last bit, on any number of ranks.
+ * pieces and ranks, and computes mass, shape and motion of each. Outputs: the elements, with the arrays fragment,
+ * fragment_mass, fragment_diameter and fragment_speed; the table of fragments; the sieve curve with fits in its columns
+ * and d50, d80 and the fits' parameters in its field data. Tables are on the first rank. Ids and tables are the same,
+ * to the last bit, on any number of ranks.
  *
  * The first input is a run as vtkBrecciaReader gives it, or the channel "elements"; the second, optional one is the
  * channel "joints" or "fractures", for where the first one has no joints (in Catalyst).

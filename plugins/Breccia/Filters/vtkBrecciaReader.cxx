@@ -99,7 +99,7 @@ int vtkBrecciaReader::RequestData(vtkInformation*, vtkInformationVector**, vtkIn
   try {
     const breccia::RunFolder run = breccia::OpenRun(this->FileName ? this->FileName : "");
     double time = run.Times().front();
-    for (const int port : {1, 0}) {  // who asks for the history alone asks for the run of that time next
+    for (const int port : {1, 0}) {  // a request for the history alone is followed by one for the run of that time
       vtkInformation* asking = outputs->GetInformationObject(port);
       if (asking->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
         time = asking->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());

@@ -3,7 +3,7 @@
  * @brief opens the folder of a Breccia run, one that is still running as well
  *
  * Outputs: a block for each recorded channel (elements, joints, contacts); the history as a table, on the first
- * rank. Times are those of all channels; each shows its last frame not after the time asked for. Frames that are not
+ * rank. Times are those of all channels; each shows its last frame not after the requested time. Frames that are not
  * whole yet are left out. A file with a piece for each rank of the run is read by as many ranks as there are.
  */
 #ifndef vtkBrecciaReader_h
@@ -35,7 +35,7 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaReader : public vtkDataObjectAlgorithm {
 
   /// Whether the file is one of a run.
   int CanReadFile(VTK_FILEPATH const char* name);
-  /// Looks for frames that have come since.
+  /// Searches for new frames.
   void Refresh() { this->Modified(); }
   /// Which channels are read.
   vtkDataArraySelection* GetChannelSelection();

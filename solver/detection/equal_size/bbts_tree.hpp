@@ -163,7 +163,7 @@ bool BbtsTree<D, Coordinate>::remove(const Key& key, Index object) {
 
   if (node == first && at(first).chained == none) {
     path_.detach(nodes_, node);
-  } else if (node == first) {  // the node of the tree stays where it is and takes over the next object
+  } else if (node == first) {  // the node of the tree stays where it is and gets the next object
     node = at(first).chained;
     at(first).object = at(node).object;
     at(first).chained = at(node).chained;

@@ -18,7 +18,7 @@ using Cell = std::array<Coordinate, static_cast<std::size_t>(D)>;
 
 /// Contact detection of bodies of similar size, from the cells of their centres alone.
 ///
-///   S search;                                  keeps its arrays, and whatever order it found, for the next call
+///   S search;                                  keeps its arrays, and any order it found, for the next call
 ///   search.detect(cells, visit);               visit(Index a, Index b) for every pair of bodies whose cells are the
 ///   same or
 ///                                              touch (26 neighbours in 3D): each pair once, a != b, in any order

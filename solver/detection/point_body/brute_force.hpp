@@ -5,7 +5,7 @@
 
 namespace breccia::detection {
 
-/// Every point against every contactor, O(num_points num_contactors): what the other algorithms are held against.
+/// Every point against every contactor, O(num_points num_contactors): the reference for the other algorithms.
 class BruteForce final : public PointBodySearch {
  public:
   void search(std::span<const Vec3> points, std::span<const Corners> contactors, double buffer,

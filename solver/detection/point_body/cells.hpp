@@ -13,7 +13,7 @@ namespace breccia::detection {
 /// with floor in the place of truncation, which would make the cell around 0 twice as wide.
 ///
 /// Beyond +-2^30 cells the coordinate stays at that bound. `of` never decreases with x, so the cells of a point in a
-/// box always lie between the cells of the box's corners, whatever the round-off.
+/// box always lie between the cells of the box's corners, for any round-off.
 class Cells {
  public:
   static constexpr std::int32_t bound = 1 << 30;

@@ -13,7 +13,7 @@
 
 namespace breccia::detection {
 
-/// Cubic cells along which positions are ordered: cell = (x - origin) / size, held within 0 .. 4^pairs - 1.
+/// Cubic cells along which positions are ordered: cell = (x - origin) / size, limited to 0 .. 4^pairs - 1.
 struct CurveFrame {
   Vec3 lower = Vec3::Zero();   ///< m, corner of the first cell
   Vec3 centre = Vec3::Zero();  ///< m, median of a sample: where most positions are
@@ -52,8 +52,8 @@ class CurveOrder {
   };
   static constexpr std::size_t crowd = 16;
 
-  /// As sort, but numbers that follow one another closely already stay as they are: then a sample of them is all that
-  /// is looked at, O(log count), besides one pass for what is not finite.
+  /// As sort, but numbers that are nearly in order remain unchanged: then only a sample is checked, O(log count),
+  /// beside one pass for non-finite values.
   template <class Position>
   std::span<const Record> arrange(std::size_t count, const CurveFrame& frame, Position position) {
     if (!follows_curve(count, position)) return sort(count, frame, position);
@@ -84,7 +84,7 @@ class CurveOrder {
   }
 
  private:
-  /// Looks at a few hundred successive numbers in four places, then at every fourth, at every sixteenth, and so on.
+  /// Checks a few hundred successive numbers in four places, then every fourth, every sixteenth, and so on.
   template <class Position>
   static bool follows_curve(std::size_t count, Position position) {
     constexpr std::size_t length = 256, places = 4;

@@ -11,14 +11,14 @@ namespace {
 constexpr std::size_t lanes = 8;               ///< points of a leaf, boxes of a group
 constexpr std::size_t group_size = 6 * lanes;  ///< floats
 constexpr std::size_t leaf_size = 3 * lanes;   ///< doubles
-constexpr std::size_t look_ahead = 24;         ///< positions whose memory is asked for beforehand
+constexpr std::size_t look_ahead = 24;         ///< positions whose memory is prefetched
 constexpr std::size_t contactors_ahead = 6;
 
 static_assert(std::is_same_v<Index, std::int32_t>, "the kernels write numbers of points");
 
 std::size_t in_groups(std::size_t count) { return (count + lanes - 1) / lanes; }
 
-/// Never decreases with x, whatever the round-off.
+/// Never decreases with x, for any round-off.
 float narrow(double x) {
   constexpr double largest = std::numeric_limits<float>::max();
   return static_cast<float>(std::clamp(x, -largest, largest));

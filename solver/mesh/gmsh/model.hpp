@@ -8,7 +8,7 @@
 
 namespace breccia {
 
-/// The mesh of the model that gmsh has open, with the groups that read_gmsh() tells of.
+/// The mesh of the model that gmsh has open, with the groups of read_gmsh().
 /// @param file  for messages;  @param scale  of the model's unit of length, m
 /// @param materials  names of the groups that carry one
 /// Elements of higher order are read by their corners, which a note states; their other nodes are left out.

@@ -64,7 +64,7 @@ Problem unexplained(const GmshSource& source) {
       ""};
 }
 
-/// What gmsh says, in its form "'file', line 12: what" with the place taken out where it stands there.
+/// A message of gmsh; the place is extracted from its form "'file', line 12: what".
 Problem problem_of(const GmshSource& source, const std::string& message) {
   const std::string mark = "', line ";
   const std::size_t mark_at = message.find(mark), digits = mark_at + mark.size();
@@ -135,7 +135,7 @@ void refuse_hxt(const GmshSource& source) {
   gmsh::option::getNumber("Mesh.Algorithm3D", algorithm);
   if (algorithm != kHxt) return;
   throw InputError(Problem{source.file.string(), 0, "Mesh.Algorithm3D",
-                           "asks for HXT, which makes another mesh each time",
+                           "selects HXT, which makes another mesh each time",
                            "1 (Delaunay) or 4 (Frontal), or a mesh file that gmsh has written", std::to_string(kHxt)});
 }
 

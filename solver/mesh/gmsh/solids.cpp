@@ -20,7 +20,7 @@ namespace {
 
 using namespace solids;
 
-/// Every edge of about the size that was asked for, or of one that gives some thousand elements.
+/// All edges of about the requested size, or of one that gives some thousand elements.
 void set_size(const GmshSource& source) {
   std::array<double, 6> box{};
   gmsh::model::getBoundingBox(-1, -1, box[0], box[1], box[2], box[3], box[4], box[5]);
@@ -68,7 +68,7 @@ void open_cad(const GmshSource& source) {
   StepScan scan;
   if (geometry_file(source.file) == GeometryFile::step) scan = scan_step(source.file);
   if (!scan.problems.empty()) throw InputError(std::move(scan.problems));
-  gmsh::option::setString("Geometry.OCCTargetUnit", "M");  // a STEP file says what its lengths are
+  gmsh::option::setString("Geometry.OCCTargetUnit", "M");  // a STEP file states its unit
   gmsh::open(source.file.string());
   Names names;
   std::map<int, std::string> volumes;

@@ -75,7 +75,7 @@ class PieceReader {
   const Stored& indexed(const CheckpointColumn& column) const {
     const auto found = stored_.find(column.path());
     if (found == stored_.end())
-      refuse_checkpoint(file_, "this checkpoint is of another version of breccia: it lacks " + column.path());
+      refuse_checkpoint(file_, "this checkpoint is of another version of breccia, without " + column.path());
     const IndexedColumn& stored = *found->second.column;
     if (stored.type != column.type || stored.components != column.components)
       refuse_checkpoint(file_,

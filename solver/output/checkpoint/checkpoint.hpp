@@ -12,7 +12,7 @@
 
 namespace breccia {
 
-/// A run between two steps: all that it needs to go on as if nothing had happened.
+/// A run between two steps: all data from which it continues with bitwise identical results.
 struct Checkpoint {
   Records mine;                        ///< this rank's originals
   State model;                         ///< the model's rows, of the whole model; alike on all ranks
@@ -31,9 +31,9 @@ struct CheckpointEntry {
 /// Those in a folder, the latest first; none if there is no such folder.
 [[nodiscard]] std::vector<CheckpointEntry> checkpoints_in(const std::filesystem::path& folder);
 
-/// Reads a checkpoint, whatever the number of ranks that wrote it; every bit of the file is verified. Its elements end
-/// up on any rank, each on one. Collective.
-/// Throws InputError, on all ranks, that says what is wrong with the file.
+/// Reads a checkpoint written by any number of ranks; every bit of the file is verified. Each element is assigned to
+/// one rank, in any distribution. Collective.
+/// Throws InputError, on all ranks, with the fault of the file.
 [[nodiscard]] Checkpoint read_checkpoint(const std::filesystem::path& file, const Communicator& communicator);
 
 }  // namespace breccia

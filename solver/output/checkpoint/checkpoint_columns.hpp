@@ -30,7 +30,7 @@ struct CheckpointColumn {
   [[nodiscard]] std::size_t row_size() const { return static_cast<std::size_t>(components) * size_of(type); }
 };
 
-/// All of them, always in the same order. They look into the checkpoint, which must outlive them.
+/// All of them, always in the same order. They refer to the checkpoint, which must outlive them.
 [[nodiscard]] std::vector<CheckpointColumn> checkpoint_columns(Checkpoint& checkpoint);
 
 /// The lists of records by name, as groups of a checkpoint, and the length of each.

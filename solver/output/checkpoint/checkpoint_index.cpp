@@ -27,7 +27,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are stored as
 constexpr std::array<const char*, 6> kTypes{"float64", "float32", "int64", "int32", "int8", "uint8"};
 /// More than the text of a column, a part and the rest of the index takes, and of the rows and checksum of a rank.
 constexpr std::size_t kTextOfColumn = 256, kTextOfRank = 64;
-/// Bytes of an index at most: what a file may ask to be read before anything of it is known to be sound.
+/// Largest index, bytes: limit of what is read of a file before it is verified.
 constexpr std::uint64_t kLargestIndex = std::uint64_t{1} << 30;
 
 constexpr std::string_view kHeaderFormat =
@@ -132,7 +132,7 @@ Header parsed_header(const std::filesystem::path& file, const std::vector<std::b
                                &format, &size, &offset, &checksum, &all);
   if (read >= 1 && format != kCheckpointFormat)
     refuse_checkpoint(file, fmt::format("this checkpoint has format {}, of another version of breccia (this one reads "
-                                        "{}): go on with the version that wrote it, or run its case again",
+                                        "{}): continue with the version that wrote it, or run its case again",
                                         format, kCheckpointFormat));
   Header header{{offset, size, checksum}, all};
   if (read != 5 || header_bytes(header.index, header.size) != bytes)

@@ -13,7 +13,7 @@ namespace breccia {
 
 // A checkpoint is an HDF5 file that any program for such files reads. Breccia itself reads it by an index of its own,
 // the dataset `index`, so that no damaged file is given to a library: the first bytes, in front of those of HDF5 (its
-// user block), tell where the index is. Every byte of the file has a checksum.
+// user block), contain the place of the index. Every byte of the file has a checksum.
 
 inline constexpr std::uint64_t kCheckpointHeader = 512;  ///< bytes
 inline constexpr int kCheckpointFormat = 14;

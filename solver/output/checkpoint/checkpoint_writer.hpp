@@ -15,9 +15,9 @@
 
 namespace breccia {
 
-/// Writes a checkpoint while the run goes on. The constructor takes the state over and lays the file out; a thread of
-/// every rank writes its part; finish() makes the file appear. A run that is killed at any moment leaves the former
-/// checkpoints as they were, and perhaps a temporary file.
+/// Writes a checkpoint while the run continues. The constructor copies the state and lays the file out; a thread of
+/// every rank writes its part; finish() publishes the file. A run that is killed at any moment leaves the former
+/// checkpoints unchanged, and possibly a temporary file.
 class CheckpointWriter {
  public:
   /// Collective. Throws OutputError on all ranks: folder, permission, space.

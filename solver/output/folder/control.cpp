@@ -25,10 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestRequest = 1 << 16;         // bytes; what is longer is cut
-constexpr std::size_t kLongestLine = 200;                // bytes; what is longer is no command, and told as far as this
-constexpr std::size_t kMostLines = 100;                  // of one request, each of which is answered; the rest is not
-constexpr auto kGlance = std::chrono::milliseconds(20);  // between two looks for an answer
+constexpr std::size_t kLongestRequest = 1 << 16;  // bytes; what is longer is cut
+constexpr std::size_t kLongestLine = 200;         // bytes; longer lines are no commands, and reported truncated
+constexpr std::size_t kMostLines = 100;           // of one request, each of which is answered; the rest is not
+constexpr auto kPollInterval = std::chrono::milliseconds(20);  // between two polls for an answer
 
 /// Takes " id=WORD" off the end.
 std::string take_id(std::string& text) {
@@ -79,7 +79,7 @@ std::string content_of(const fs::path& path) {
   return text;
 }
 
-/// Puts a request where the run looks for it, once what others have put there has been taken: a link never replaces.
+/// Places a request for the run, once earlier ones have been removed: a link never replaces.
 /// @return  false when the time is over
 bool put_request(const fs::path& control, const std::string& line, const std::string& id,
                  const std::function<bool()>& in_time) {
@@ -94,7 +94,7 @@ bool put_request(const fs::path& control, const std::string& line, const std::st
       fs::rename(own, control, error);  // a file system without links
       put = !error;
     }
-    if (!put) std::this_thread::sleep_for(kGlance);
+    if (!put) std::this_thread::sleep_for(kPollInterval);
   }
   fs::remove(own, ignored);
   return put;
@@ -165,17 +165,17 @@ std::string ask_run(const fs::path& run_folder, const std::string& command, doub
   demand_plain_folder(folder);
   std::error_code error;
   if (!fs::exists(folder.status(), error))
-    throw no_answer(run_folder, "no run of breccia writes here", "the folder of a run that goes on");
+    throw no_answer(run_folder, "no run of breccia writes here", "the folder of a run in progress");
   run_folder::GrowingLines status(folder.status());
   // What stands there before the request answers none.
   do {
     for (const std::string& line : status.news().lines) {
       if (is_over(run_folder::parse_status_line(line)))
-        throw no_answer(run_folder, "this run has ended", "the folder of a run that goes on");
+        throw no_answer(run_folder, "this run has ended", "the folder of a run in progress");
     }
   } while (status.has_more());
   if (fs::exists(lock_file(run_folder), error) && holder_of(run_folder).empty())
-    throw no_answer(run_folder, "this run was interrupted: its process is gone", "the folder of a run that goes on");
+    throw no_answer(run_folder, "this run was interrupted: its process has ended", "the folder of a run in progress");
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
   const auto in_time = [&] { return std::chrono::steady_clock::now() < end; };
   const std::string id = std::to_string(::getpid()) + "." + std::to_string(::gettid()) + "." +
@@ -191,10 +191,10 @@ std::string ask_run(const fs::path& run_folder, const std::string& command, doub
       }
       if (is_over(news)) throw no_answer(run_folder, "the run has ended meanwhile", "");
     }
-    std::this_thread::sleep_for(kGlance);
+    std::this_thread::sleep_for(kPollInterval);
   }
   if (put && content_of(folder.control()) == line) fs::remove(folder.control(), error);
-  throw no_answer(run_folder, "the run does not answer; is it still there?", "the folder of a run that goes on");
+  throw no_answer(run_folder, "the run does not respond; it may have ended", "the folder of a run in progress");
 }
 
 }  // namespace breccia

@@ -11,13 +11,13 @@
 
 namespace breccia {
 
-/// What a person or program asks of a running solver.
+/// Request of a user or program to a running solver.
 struct Command {
   enum class Kind { refused, pause, resume, stop, extract, frame, frame_interval, checkpoint };
   Kind kind = Kind::refused;
   double value = 0;       ///< frame_interval: s
   std::string text;       ///< as it was given, without the id
-  std::string id;         ///< given by who asks, to know the answer by; may be empty
+  std::string id;         ///< given by the sender, to identify the answer; may be empty
   std::string complaint;  ///< why it is refused
 };
 
@@ -29,13 +29,13 @@ struct Command {
 inline constexpr std::string_view kCommandWords =
     "pause, resume, stop, extract, frame, frame_interval TIME, checkpoint";
 
-/// The file `control` in a run's folder: whoever wants something writes lines into it; they are taken out as soon as
-/// they are seen, which is looked for five times a second at most.
+/// The file `control` in the folder of a run: users and programs append requests, one a line; the solver reads and
+/// removes them, at most five times a second.
 class ControlFile {
  public:
   explicit ControlFile(std::filesystem::path file) : path_(std::move(file)) {}
 
-  /// The lines that have been written since, if any. Never throws: a file that cannot be read says nothing.
+  /// The lines that have been written since, if any. Never throws: an unreadable file counts as empty.
   [[nodiscard]] std::vector<std::string> take();
 
  private:

@@ -27,7 +27,7 @@ void walk_tree(const Descriptor& folder, const std::filesystem::path& path,
 /// Removes an entry, a folder with all in it. Throws OutputError.
 void remove_entry(const TreeEntry& entry);
 
-/// Removes a file of a run's folder, whatever stands under its name but a folder.
+/// Removes a file of a run's folder, of any kind except a folder.
 /// @return  why that cannot be done; empty: it is not there any more
 [[nodiscard]] std::string remove_file(const std::filesystem::path& path, Depth depth);
 

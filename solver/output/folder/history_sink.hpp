@@ -13,15 +13,15 @@ namespace breccia {
 
 /// Names of the history's columns with their units, "time [s]", "kinetic [J]", ..., then for each gauge
 /// "<group> reaction x [N]", ... The order of history_values.
-/// @param insitu  pipelines work while the run goes on: their share of the wall time is the last column
+/// @param insitu  pipelines are executed during the run: their share of the wall time is the last column
 [[nodiscard]] std::vector<std::string> history_columns(const std::vector<std::string>& gauges, bool insitu = false);
 
 /// The numbers of a row in the order of the columns.
 [[nodiscard]] std::vector<double> history_values(const HistoryRow& row);
 
 /// `history.csv`: a header line, then one line a row, numbers with 17 significant digits (they read back as the same
-/// doubles; not-a-number is written nan). Names that hold a comma or quote are quoted as RFC 4180 asks. Every line is
-/// handed to the system at once, so a killed run keeps all of them.
+/// doubles; not-a-number is written nan). Names with a comma or quote are quoted by RFC 4180. Every line is written to
+/// the system at once, so a killed run keeps all of them.
 class HistorySink final : public Sink {
  public:
   explicit HistorySink(std::filesystem::path file) : path_(std::move(file)) {}
@@ -36,7 +36,7 @@ class HistorySink final : public Sink {
   std::filesystem::path path_;
   std::optional<LineFile> file_;
   std::size_t gauges_ = 0;
-  bool insitu_before_ = false;  ///< lines so far have the share of pipelines, which the run goes on without
+  bool insitu_before_ = false;  ///< lines so far have the share of pipelines, which the continued run lacks
 };
 
 }  // namespace breccia

@@ -21,7 +21,7 @@ class RaceProgress {
   /// @pre stream outlives this object
   RaceProgress(ProgressMode mode, std::ostream& stream, int columns);
 
-  /// Whether a status would be shown now: asked every step, so that none is made in vain.
+  /// Whether a status would be shown now; called every step, so that no unused one is made.
   [[nodiscard]] bool due() const { return mode_ != ProgressMode::none && pace_.due(); }
   void tell(const RaceStatus& status);
   /// The last line, before the results.

@@ -25,8 +25,8 @@ void remove_stale(const fs::path& path) {
   if (!why.empty()) throw output_error(path, "cannot remove this file of the run so far: " + why);
 }
 
-/// The lines that a run goes on from, as long as they were when the checkpoint was written. Looked at before anything
-/// is changed.
+/// The lines from which a run continues, of the length when the checkpoint was written. Checked before anything is
+/// changed.
 void demand_lines(const fs::path& file, std::int64_t bytes, const Checkpoint& from) {
   std::error_code error;
   const bool there = fs::is_regular_file(fs::symlink_status(file, error));
@@ -34,7 +34,7 @@ void demand_lines(const fs::path& file, std::int64_t bytes, const Checkpoint& fr
   Problem problem;
   problem.file = file.string();
   problem.what = there ? "this file has lost lines that were written before the checkpoint"
-                       : "this file is gone, with its lines from before the checkpoint";
+                       : "this file is missing, with its lines from before the checkpoint";
   problem.allowed = fmt::format(
       "the file as the run left it; or, without it, a new run: a case with [start] from = this run, step = {}",
       from.model.clock.steps);

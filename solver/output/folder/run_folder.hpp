@@ -44,18 +44,18 @@ struct Provenance {
 [[nodiscard]] Provenance::Input input_file(const std::filesystem::path& file);
 /// The run in a provenance, JSON; empty: it names none.
 [[nodiscard]] std::string run_in(const std::string& provenance);
-/// What the provenance of another run, JSON, says of its inputs and parents. What cannot be read is left out.
+/// Inputs and parents in the provenance of another run, JSON. Unreadable entries are omitted.
 [[nodiscard]] std::vector<Provenance::Input> inputs_in(const std::string& provenance);
 [[nodiscard]] std::vector<Provenance::Parent> parents_in(const std::string& provenance);
 
-/// Asks the machine and the build; unknown parts are empty. Throws nothing but std::bad_alloc.
+/// Data of the machine and the build; unknown parts are empty. Throws nothing but std::bad_alloc.
 [[nodiscard]] Provenance collect_provenance(std::string version, std::vector<std::string> command_line);
 [[nodiscard]] std::string provenance_json(const Provenance& provenance);
 
 /// Names inside one run's folder.
 struct RunFolder {
   std::filesystem::path root;
-  std::shared_ptr<const RunLock> lock = nullptr;  ///< of the process that prepared it, held as long as this lives
+  std::shared_ptr<const RunLock> lock = nullptr;  ///< of the process that prepared it, locked as long as this lives
 
   [[nodiscard]] std::filesystem::path frames() const { return root / run_folder::kFrames; }
   [[nodiscard]] std::filesystem::path case_file() const { return root / run_folder::kCaseFile; }
@@ -80,8 +80,8 @@ enum class OldResults { refuse, keep, overwrite };
 /// Makes `root` ready for a run: creates it and frames/, writes case.toml and provenance.json.
 /// A folder with other things in it is refused, and so is a run with results unless old_results is overwrite: then the
 /// files a run writes are removed, and only those.
-/// The folder is locked first (output/folder/run_lock.hpp): no other run takes the results of a run that is going.
-/// @throws OutputError naming the path: refused, held by another run, not a folder, no permission, disk full.
+/// The folder is locked first (output/folder/run_lock.hpp): no other run overwrites the results of a run in progress.
+/// @throws OutputError naming the path: refused, locked by another run, not a folder, no permission, disk full.
 [[nodiscard]] RunFolder prepare_run_folder(const std::filesystem::path& root, const std::string& resolved_case,
                                            const Provenance& provenance, OldResults old_results);
 

@@ -23,10 +23,10 @@
 namespace breccia {
 namespace {
 
-constexpr char kErrorTold = '\1';       // from the run to its watch: an error has been told
+constexpr char kErrorReported = '\1';   // from the run to its watch: an error has been reported
 constexpr std::size_t kTail = 1 << 14;  // bytes at the end of status.jsonl that hold its last line
 
-/// What the lock file says of its owner: "process 17 on host, since TIME".
+/// Owner of the lock file: "process 17 on host, since TIME".
 std::string owner_in(const Descriptor& file) {
   std::array<char, 300> text{};
   const ssize_t got = ::pread(file.get(), text.data(), text.size(), 0);
@@ -55,7 +55,7 @@ bool no_locks_here(int error) { return error == ENOLCK || error == EOPNOTSUPP ||
 
 bool says(std::string_view line, std::string_view what) { return line.find(what) != std::string_view::npos; }
 
-/// Appends the last word to a status file whose run is gone. The caller holds the lock.
+/// Appends the final status of a run that has ended. The caller has the lock.
 void conclude(const char* status, bool failed) {
   const int file = ::open(status, O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (file < 0) return;
@@ -71,12 +71,12 @@ void conclude(const char* status, bool failed) {
   if (got >= 0) {
     std::string_view text(tail.data(), static_cast<std::size_t>(got));
     const bool whole = text.empty() || text.back() == '\n';
-    if (!whole) text = text.substr(0, text.rfind('\n') + 1);  // a line that was cut off says nothing
+    if (!whole) text = text.substr(0, text.rfind('\n') + 1);  // a truncated line is ignored
     const std::size_t last = text.rfind("{\"state\":");
     const std::string_view state = last == std::string_view::npos ? "" : text.substr(last, 24);
     // Without a line: it has not come to its first step.
     if (state.empty() || says(state, "\"running\"") || says(state, "\"paused\"")) {
-      const char* line = failed ? "{\"state\":\"failed\",\"message\":\"ended by an error, which was told on stderr\"}\n"
+      const char* line = failed ? "{\"state\":\"failed\",\"message\":\"ended by an error, which is on stderr\"}\n"
                                 : "{\"state\":\"interrupted\",\"message\":\"the process ended without a word: killed, "
                                   "or the machine stopped it\"}\n";
       if (!whole) (void)!::write(file, "\n", 1);
@@ -95,7 +95,7 @@ void conclude(const char* status, bool failed) {
     for (int d = 4; d < 65536; ++d) ::close(d);
   }
   for (const int d : {0, 1, 2}) ::close(d);
-  static std::array<char, 1 << 13> received;  // two paths, each ended by a zero, then perhaps kErrorTold
+  static std::array<char, 1 << 13> received;  // two paths, each ended by a zero, then perhaps kErrorReported
   std::size_t size = 0;
   for (;;) {
     const ssize_t got = ::read(3, received.data() + size, received.size() - size);
@@ -109,9 +109,9 @@ void conclude(const char* status, bool failed) {
   const auto* second_end =
       static_cast<const char*>(std::memchr(status, 0, size - static_cast<std::size_t>(status - received.data())));
   if (second_end == nullptr) ::_exit(0);
-  const bool failed = second_end + 1 < received.data() + size && second_end[1] == kErrorTold;
+  const bool failed = second_end + 1 < received.data() + size && second_end[1] == kErrorReported;
   const int lock = ::open(received.data(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-  // A process that ends lets go of the pipe and of the lock one after the other. If the lock stays taken, another run
+  // A process that ends closes the pipe and releases the lock one after the other. If the lock stays taken, another run
   // has begun in this folder, and the file is that run's.
   bool ours = false;
   for (int look = 0; lock >= 0 && !ours && look < 200; ++look) {
@@ -176,7 +176,7 @@ RunWatch::RunWatch() : exceptions_(std::uncaught_exceptions()) {
 
 RunWatch::~RunWatch() {
   if (pipe_ < 0) return;
-  if (std::uncaught_exceptions() > exceptions_) send(pipe_, std::string_view(&kErrorTold, 1));
+  if (std::uncaught_exceptions() > exceptions_) send(pipe_, std::string_view(&kErrorReported, 1));
   ::close(pipe_);
 }
 

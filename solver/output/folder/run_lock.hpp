@@ -5,8 +5,8 @@
 
 namespace breccia {
 
-/// Holds a run's folder for one process: flock on the file `run.lock` in it, which names process and machine. The
-/// system lets go of it when the process ends, however it ends, so a lock that is left over holds nothing.
+/// Locks a run's folder for one process: flock on the file `run.lock` in it, which names process and machine. The
+/// system releases it when the process ends in any way, so a left-over file is no lock.
 class RunLock {
  public:
   /// @param folder  exists. Throws OutputError that names who holds it; when the file cannot be written.
@@ -25,17 +25,17 @@ class RunLock {
 /// free. Throws nothing.
 [[nodiscard]] std::string holder_of(const std::filesystem::path& folder);
 
-/// A small process of its own session that outlives this one: when this one ends, it looks at the end of the run's
-/// status.jsonl. Where that still says "running" or "paused", or nothing yet, it appends a line
-/// {"state": "interrupted", "message": ...} (or "failed" after an error that this process has told), so that a run that
-/// was killed does not look alive.
+/// A small process of its own session that outlives this one: when this one ends, it reads the end of the run's
+/// status.jsonl. If the state is still "running" or "paused", or missing, it appends a line {"state": "interrupted",
+/// "message": ...} (or "failed" after an error that this process has reported), so that a killed run does not appear to
+/// be in progress.
 class RunWatch {
  public:
   /// Starts it, early: it keeps the memory that this process has now. Without processes to be had there is no watch.
   RunWatch();
   RunWatch(const RunWatch&) = delete;
   RunWatch& operator=(const RunWatch&) = delete;
-  ~RunWatch();  ///< lets it look
+  ~RunWatch();  ///< starts its check
   void guard(const std::filesystem::path& folder) const;
 
  private:

@@ -53,7 +53,7 @@ StatusLine last_line(StatusLine line, const Summary& summary) {
   return line;
 }
 
-/// What finish has to say beyond the state.
+/// Message of finish beyond the state.
 std::string message_of(const Summary& summary) { return state_of(summary) == RunState::complete ? "" : summary.status; }
 
 RunState state_now(const StatusLine& line) { return line.paused ? RunState::paused : RunState::running; }

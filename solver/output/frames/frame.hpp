@@ -25,9 +25,9 @@ struct Frame {
     std::vector<double> values{};  ///< (num_elements, components)
   };
 
-  /// Values at the corners, in the order of the points, where they are asked for: displacement (m) and velocity (m/s)
-  /// of the element's own nodes; stress (Pa), what follows from it, and memory as means over the elements around the
-  /// corner that are still connected there, weighted by their mass.
+  /// Values at the corners, in the order of the points, if requested: displacement (m) and velocity (m/s) of the
+  /// element's own nodes; stress (Pa), what follows from it, and memory as means over the elements around the corner
+  /// that are still connected there, weighted by their mass.
   struct AtPoints {
     std::vector<double> displacement, velocity;  ///< (num_points, 3)
     std::vector<double> stress;                  ///< (num_points, 6)
@@ -48,8 +48,8 @@ struct Frame {
     std::vector<double> displacement;    ///< (num_elements, 3) of the centroid, m
     std::vector<double> cost;  ///< relative to an element that has its own nodes and neither active joint nor couple
     std::vector<double> mass;  ///< kg; not of surfaces, as the next
-    std::vector<std::int64_t> neighbour;  ///< (num_elements, 4) element that is or was held across the face opposite to
-                                          ///< each corner, through a joint or shared nodes; -1: none
+    std::vector<std::int64_t> neighbour;  ///< (num_elements, 4) element that is or was connected across the face
+                                          ///< opposite to each corner, by a joint or shared nodes; -1: none
     std::vector<StateField> state;
     AtPoints at_points;
   } elements;
@@ -98,11 +98,12 @@ struct Frame {
     std::vector<double> points;      ///< (8, 3) box around its elements, corners in the order of VTK's hexahedron
     std::vector<std::int32_t> rank;  ///< (1), as the following
     std::vector<std::int64_t> elements, joints, couples;  ///< own elements; active joints and couples worked on
-    std::vector<double> load;                             ///< working time over that of the mean rank, at the last look
+    std::vector<double> load;                             ///< working time over that of the mean rank, at the last
+                                                          ///< evaluation
   } domain;
 };
 
-/// Which parts of a frame are asked for; the others stay empty.
+/// Requested parts of a frame; the others stay empty.
 struct FrameParts {
   bool elements = true, joints = true, contacts = true, surface = false, domain = false;
   bool at_points = false;  ///< values at the corners of elements and surface too
@@ -139,7 +140,7 @@ struct HistoryRow {
   std::optional<double> insitu_share;  ///< of the wall time, that pipelines have taken on the first rank
 };
 
-/// What a pipeline has done since the run began or last went on from a checkpoint.
+/// Executions of a pipeline since the run began or was last resumed.
 struct PipelineReport {
   std::string name;
   std::int64_t executed = 0, passed_over = 0, failed = 0;
@@ -148,7 +149,7 @@ struct PipelineReport {
   std::int64_t bytes = 0;  ///< written by all ranks
 };
 
-/// What the checkpoints have cost since the run began or last went on from one.
+/// Cost of the checkpoints since the run began or was last resumed.
 struct CheckpointReport {
   std::int64_t written = 0, failed = 0;
   double pause_s = 0, longest_pause_s = 0;  ///< s, that steps waited for them: in all, at most
@@ -160,14 +161,15 @@ struct Summary {
   std::string title, version, host, status;  ///< status: "complete", "stopped: ..." or the error
   int ranks = 1;
   std::int64_t decompositions = 1;               ///< divisions of the model among the ranks
-  double imbalance = 1;                          ///< largest over mean working time of the ranks, at the last look
+  double imbalance = 1;                          ///< largest over mean working time of the ranks, at the last
+                                                 ///< evaluation
   std::int64_t messages = 0, message_bytes = 0;  ///< that gathered proxies, of all ranks, in span_s
   std::int64_t steps = 0;
   double simulated_time = 0, time_step = 0;
   std::int64_t elements = 0, joints = 0, broken_joints = 0, fragments = 0, searches = 0, inverted_elements = 0;
   double wall_s = 0, element_steps_per_s = 0;          ///< of the whole run, also of what other processes did of it
   double span_s = 0;                                   ///< s, of wall_s, that this process has worked on it
-  std::int64_t resumed_at = -1;                        ///< step from which this process went on; -1: from its start
+  std::int64_t resumed_at = -1;                        ///< step from which this process resumed; -1: from its start
   std::vector<std::pair<std::string, double>> phases;  ///< s, in span_s
   std::vector<PipelineReport> insitu;
   CheckpointReport checkpoints;

@@ -12,7 +12,7 @@ namespace breccia {
 // line here, and what fills it in observe/frames.cpp; what elements of a bulk law remember is
 // shown by the law's own list.
 
-/// Arrays that are computed with, not only looked at: files keep them in 64 bits.
+/// Arrays for computation, not only for display: files store them in 64 bits.
 inline bool kept_in_64_bits(std::string_view name) { return name == "mass"; }
 
 /// Stress and motion, of cells and of points.

@@ -48,7 +48,7 @@ class Handle {
   Close close_;
 };
 
-/// HDF5 prints its error stack by default; the exception says what is needed.
+/// HDF5 prints its error stack by default; the exception has the message.
 class QuietHdf5 {
  public:
   QuietHdf5() {
@@ -146,7 +146,7 @@ void make_tree(hid_t file, std::span<const Column> columns, const Hdf5Format& fo
 /// A file without a name that takes memory only where something has been written.
 class SparseMemory {
  public:
-  /// @param size  bytes it will not grow beyond: told here if there is a limit to the size of files
+  /// @param size  largest size, bytes; throws if it exceeds the limit of file sizes
   explicit SparseMemory(hsize_t size) : descriptor_(::memfd_create("frame", MFD_CLOEXEC)) {
     if (descriptor_ >= 0 && ::ftruncate(descriptor_, static_cast<off_t>(size)) == 0) return;
     const int error = errno;
@@ -229,7 +229,7 @@ Hdf5Skeleton hdf5_skeleton(std::span<const Column> columns, const Hdf5Format& fo
   const SparseMemory memory(bound);
   const Handle access = unlocked_access();
   checked(H5Pset_fapl_stdio(access),
-          "file access");  // the one driver that does not ask for the real path, where nothing is
+          "file access");  // the one driver that does not resolve the real path, as there is no file
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file creation");
   checked(H5Pset_userblock(creation, format.user_block), "user block");
   Handle file(H5Fcreate(memory.path().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "file");

@@ -25,8 +25,8 @@ struct Hdf5Format {
 };
 [[nodiscard]] Hdf5Format vtkhdf_format();
 
-// HDF5 works in memory only, so that every write to the disk is our own: it does not give up a file that it cannot
-// write, and says nothing to stderr here. Both functions throw Hdf5Failure.
+// HDF5 works in memory only, so that Breccia writes to the disk itself: HDF5 does not release a file that it cannot
+// write, and prints nothing to stderr here. Both functions throw Hdf5Failure.
 
 /// The bytes of a file with these datasets and their values.
 /// @pre the columns are those of a rank that is alone. Allocates twice the size of the file.
@@ -42,7 +42,7 @@ struct Hdf5Skeleton {
   std::vector<std::uint64_t> offsets;  ///< (columns) where the values begin
   std::vector<Part> structure;         ///< everything that is no value
 };
-/// Takes memory for the structure alone, whatever the number of rows, but needs the right to make a file that large.
+/// Allocates memory for the structure alone, for any number of rows, but needs the right to create a file of that size.
 [[nodiscard]] Hdf5Skeleton hdf5_skeleton(std::span<const Column> columns, const Hdf5Format& format = vtkhdf_format());
 
 }  // namespace breccia

@@ -15,8 +15,8 @@ namespace breccia {
 /// Cells of one kind, each with points of its own: cell c has the points n c .. n c + n - 1 (n = 4, 3, 1).
 enum class CellKind { tetrahedra, triangles, vertices };
 
-/// Values of a cell array, (num_cells, components) interleaved. Integers stay what they are; doubles are stored as
-/// 32-bit floats, unless the array asks for more: they are looked at, not computed with.
+/// Values of a cell array, (num_cells, components) interleaved. Integers keep their type; doubles are stored as 32-bit
+/// floats, unless kept_in_64_bits: they are for display, not for computation.
 using CellValues = std::variant<std::span<const double>, std::span<const std::int32_t>, std::span<const std::int64_t>>;
 
 struct CellArray {

@@ -44,18 +44,17 @@ struct Column {
   int components;  ///< 1: a one-dimensional dataset, else (rows, components)
   Rows rows;
   bool deflates;  ///< worth its time
-  /// This rank's rows as they are stored, made when asked for. @param space  may be used for them; must outlive the
-  /// result
+  /// This rank's rows as they are stored, made on request. @param space  may be used for them; must outlive the result
   std::function<std::span<const std::byte>(std::vector<std::byte>& space)> bytes;
-  std::string unit{};  ///< "": none is told
+  std::string unit{};  ///< "": none
 
   [[nodiscard]] std::size_t row_size() const {
     return static_cast<std::size_t>(components) * size_of(type);
   }  ///< bytes
 };
 
-/// The datasets of a VTKHDF 1.0 unstructured grid, in the order of the file. Points and offsets are numbered anew in
-/// every piece. The result looks into the grid's arrays.
+/// The datasets of a VTKHDF 1.0 unstructured grid, in the order of the file. Points and offsets are numbered within
+/// each piece. The result refers to the grid's arrays.
 [[nodiscard]] std::vector<Column> vtkhdf_columns(const GridView& grid, const Pieces& pieces);
 
 [[nodiscard]] std::size_t num_cells(const GridView& grid);

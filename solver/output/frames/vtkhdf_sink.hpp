@@ -19,7 +19,7 @@ class VtkhdfSink final : public Sink {
   /// @pre folder exists
   explicit VtkhdfSink(std::filesystem::path folder, FrameParts parts = {}, Communicator communicator = {});
 
-  /// A run that goes on: takes the frames up to its mark from the indices and removes those that follow there.
+  /// For a resumed run: keeps the frames up to its mark in the indices and removes later ones.
   /// Throws OutputError.
   void start(const RunStart& run) override;
   void mark(OutputMarks& marks) const override;
@@ -49,7 +49,7 @@ class VtkhdfSink final : public Sink {
 
   std::filesystem::path folder_;
   Communicator communicator_;
-  std::vector<Series> series_;  ///< of the parts asked for
+  std::vector<Series> series_;  ///< of the requested parts
 };
 
 }  // namespace breccia

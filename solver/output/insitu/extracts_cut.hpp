@@ -8,9 +8,9 @@ namespace breccia {
 /// First line of the index of extracts; a line "step,time" for each step at which pipelines wrote follows.
 inline constexpr const char* kExtractsHeader = "step,time [s]";
 
-/// Takes back what in-situ pipelines wrote from a step on, before a run goes on from there: files and folders whose
-/// names end in such a step of the index (`fractures_000000120.pvtu`, `stress_000000120.png`), what lists of times
-/// (.pvd) say of them, the lines of a history.csv and of probes, and those of the index. Everything else stays: files
+/// Removes the extracts of in-situ pipelines from a step on, before a run continues from there: files and folders whose
+/// names end in such a step of the index (`fractures_000000120.pvtu`, `stress_000000120.png`), their entries in lists
+/// of times (.pvd), the lines of a history.csv and of probes, and those of the index. Everything else stays: files
 /// without a step in their names, or with a number that is no step of the run. Links are neither followed nor removed.
 /// No folder: nothing is done.
 /// @param index  extracts.csv of the run; none there: no file is removed

@@ -97,7 +97,7 @@ void InSitu::open(const case_::Case& input, const std::filesystem::path& folder)
   });
 }
 
-/// A run that goes on appends to what is there.
+/// A resumed run appends to the existing file.
 void InSitu::open_index(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t before = std::filesystem::file_size(file, error);
@@ -148,7 +148,7 @@ InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
   space_anew(now);
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
     Pipeline& p = pipelines_[i];
-    const bool is_due = this->due(p, now);  // asked in any event: its trigger moves on
+    const bool is_due = this->due(p, now);  // called in any case: its trigger advances
     if (!p.off && (is_due || all || (ordered & bit(i)) != 0)) due |= bit(i);
   }
   if (due == 0) return {};
@@ -167,7 +167,7 @@ InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
     const std::uint32_t channels = plugin_.api().channels(adaptor_, static_cast<std::int32_t>(i), now.step, now.time);
     if (channels == 0 && pipelines_[i].failures > 0) {  // a script that failed when it was read: it is not read again
       pipelines_[i].off = true;
-      tell_("pipeline " + pipelines_[i].name + ": switched off, it asks for nothing since it failed", false);
+      tell_("pipeline " + pipelines_[i].name + ": switched off, as it requests nothing after its failure", false);
     }
     if (channels == 0) continue;
     plan.channels |= channels;
@@ -189,7 +189,7 @@ bool InSitu::due(Pipeline& p, const Moment& now) {
   return triggered && is_time;
 }
 
-/// Ranks have agreed, and scripts were asked, for nothing.
+/// Accounts the cost of queries after which nothing is executed.
 void InSitu::account_idle(std::uint32_t asked) {
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
     if ((asked & bit(i)) != 0) pipelines_[i].overhead.account_idle(seconds_since(planned_) / std::popcount(asked));
@@ -211,8 +211,8 @@ void InSitu::execute(const Plan& plan, const Frame& frame, const std::vector<std
   tell_notices();
 }
 
-/// Before anything is written, so that a run that goes on from an earlier step knows it. Without the line, extracts of
-/// this step stay where such a run ends before it.
+/// Before anything is written, so that a run resumed from an earlier step knows it. Without the line, extracts of this
+/// step stay where such a run ends before it.
 void InSitu::list_step() {
   try {
     communicator_.agree([&] {

@@ -19,26 +19,26 @@
 
 namespace breccia {
 
-/// Looks whether all pipelines of a case could run: names, parameters, scripts, a display for pictures, the folder of
-/// the extracts, which is there. Not collective. Throws InputError with every problem.
+/// Checks whether all pipelines of a case could run: names, parameters, scripts, a display for pictures, the existing
+/// folder of the extracts. Not collective. Throws InputError with every problem.
 void preflight(const case_::Case& input, const std::filesystem::path& folder, const InSituPlugin& plugin,
                const Communicator& communicator);
 
-/// The pipelines of a case that work on the state while the run goes on: when each is due, what it may cost, what its
-/// failure means. The work itself is the adaptor's (catalyst/insitu_abi.h).
+/// The pipelines that process the state during the run: when each is due, its budget, and the consequence of its
+/// failure. The adaptor executes them (catalyst/insitu_abi.h).
 ///
 /// Triggers by step, simulated time and broken joints are known to all ranks alike and hit the very step; those by wall
 /// time are the root's, which sends them to the others as orders, received a step later. A pipeline without triggers,
 /// or due by steps or simulated time, is executed twice, so that its cost is known; then the root spaces as many
 /// executions as its part of the budget affords evenly over the rest of the run, and does so again after each of them
-/// and now and then. Pipelines with other triggers are passed over while what they have taken passes their part of the
-/// wall time so far. With nothing due a step costs a few comparisons.
+/// and now and then. Pipelines with other triggers are skipped while their cost exceeds their part of the wall time so
+/// far. With nothing due a step costs a few comparisons.
 class InSitu {
  public:
   /// Receives messages in words; called on all ranks. The flag is false for a warning.
   using Tell = std::function<void(const std::string& text, bool good)>;
 
-  /// Loads the adaptor, looks whether everything asked for could work, and starts it. Collective.
+  /// Loads the adaptor, checks all requirements, and starts it. Collective.
   /// @param folder  of the extracts; made when it is not there, as is the index of their steps beside it
   /// Throws InputError with every problem, on all ranks alike.
   InSitu(const case_::Case& input, const std::filesystem::path& folder, const Communicator& communicator, Tell tell);
@@ -59,14 +59,14 @@ class InSitu {
     std::uint32_t pipelines = 0, channels = 0;  ///< masks; 0: nothing
     explicit operator bool() const { return pipelines != 0; }
   };
-  /// @param ordered  mask of pipelines that are due by order; @param all  all of them are, whatever they cost
+  /// @param ordered  mask of pipelines that are due by order; @param all  execute all, regardless of the cost
   /// Collective when something is due; the same on all ranks.
   [[nodiscard]] Plan plan(const Moment& now, std::uint32_t ordered, bool all);
   /// Does it. @param frame  has the parts of the plan's channels
   /// Throws OutputError on all ranks when a pipeline fails and on_error is stop. Collective.
   void execute(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns,
                const std::optional<std::vector<double>>& row);
-  /// What the scripts of the last execution ask of the run; the root's counts.
+  /// Requests of the scripts of the last execution to the run; those of the root apply.
   [[nodiscard]] const BrecciaRequests& requests() const { return requests_; }
 
   /// Whether on_error has ended the run.
@@ -90,7 +90,7 @@ class InSitu {
     bool off = false;
     bool even = false;       ///< spaced evenly over the run
     double interval = 0;     ///< s, simulated: of an even one without triggers; 0: it has triggers
-    std::int64_t least = 0;  ///< executions of an even one, whatever they cost
+    std::int64_t least = 0;  ///< executions of an evenly spaced one, regardless of the cost
     double last = 0;         ///< s, simulated: of the last execution
     double not_before = 0;   ///< s, simulated: of an even one
     bool told = false;       ///< how often it is executed

@@ -13,7 +13,7 @@
 
 namespace breccia {
 
-/// What the adaptor is told of a run, with the strings that it points to.
+/// Configuration of the adaptor for a run, with the strings that it points to.
 class InSituConfig {
  public:
   /// @param folder  absolute

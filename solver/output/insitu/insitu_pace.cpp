@@ -14,8 +14,8 @@ namespace {
 
 /// Parts of an execution that round-off may hide.
 constexpr double kRoundOff = 1e-9;
-/// The share of a plan may pass the budget by so much before it is said: it counts whole executions.
-constexpr double kTold = 1.2;
+/// Ratio of the planned share to the budget from which it is reported: the plan has whole executions.
+constexpr double kReportedRatio = 1.2;
 
 std::int64_t whole(double number) { return static_cast<std::int64_t>(std::floor(number + kRoundOff)); }
 
@@ -58,10 +58,10 @@ std::vector<double> parts_of_budget(double budget, const std::vector<double>& as
 std::string pace_text(const std::string& name, const char* thing, const Spacing& spacing, const PaceState& state) {
   std::string text = fmt::format("{}: a {} every {}, {} in all, for {:.2g} % of the wall time", name, thing,
                                  quantity_text(spacing.distance, "s"), spacing.times, 100 * spacing.share);
-  if (spacing.share > kTold * state.share) {
+  if (spacing.share > kReportedRatio * state.share) {
     text += fmt::format(", more than its part of insitu.max_overhead, {:.2g} %", 100 * state.share);
     if (state.least > 1) text += fmt::format(": insitu.least_instants = {}", state.least);
-  } else if (spacing.distance > kTold * state.interval) {
+  } else if (spacing.distance > kReportedRatio * state.interval) {
     text += fmt::format("; one every {} would take more than its part of insitu.max_overhead",
                         quantity_text(state.interval, "s"));
   }

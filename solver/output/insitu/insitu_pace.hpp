@@ -13,7 +13,7 @@ struct PaceState {
   double elapsed = 0;                  ///< s, wall, since `begin`
   double starts = 0;                   ///< s of it in which pipelines were started, once
   double interval = 0;                 ///< s, simulated: between two executions if cost were no matter
-  std::int64_t least = 0;              ///< executions over the whole run that are made whatever they cost
+  std::int64_t least = 0;              ///< executions over the whole run, regardless of the cost
   double share = 0;                    ///< of the wall time of the whole run, for all that the pipeline costs
   double spent = 0;                    ///< s, wall, so far, its start included
   double cost = 0;                     ///< s, wall, of an execution
@@ -36,12 +36,12 @@ struct Spacing {
 /// becomes dearer. @pre now > begin, last < end, cost > 0, interval > 0
 [[nodiscard]] Spacing spaced_evenly(const PaceState& state);
 
-/// Divides a budget: everyone gets an even part; what one does not need of it goes to the others.
+/// Divides a budget: each gets an even part; unused parts go to the others.
 /// @param asked  >= 0, may be infinite
 [[nodiscard]] std::vector<double> parts_of_budget(double budget, const std::vector<double>& asked);
 
-/// "stress: a picture every 4.1 us, 25 in all, for 2 % of the wall time", and why where it is more or less than asked
-/// for.
+/// "stress: a picture every 4.1 us, 25 in all, for 2 % of the wall time", with the reason if it is more or less than
+/// requested.
 /// @param thing  "picture", "record"
 [[nodiscard]] std::string pace_text(const std::string& name, const char* thing, const Spacing& spacing,
                                     const PaceState& state);

@@ -70,7 +70,7 @@ InSituPlugin::InSituPlugin(InSituBackend backend) {
   try {
     open(InSituBackend::paraview);
   } catch (const OutputError&) {
-    // What lacks of Catalyst 2 is told only where a case asks for it; mostly it is ParaView's adaptor that is wanted.
+    // Missing parts of Catalyst 2 are reported only if a case selects it; usually ParaView's adaptor is meant.
     try {
       open(InSituBackend::catalyst2);
       static_cast<void>(found());

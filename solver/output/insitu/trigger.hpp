@@ -15,8 +15,8 @@ struct Moment {
   std::int64_t broken = 0;  ///< joints of the whole model, as last counted
 };
 
-/// When a pipeline is due by what all ranks know: steps, simulated time, broken joints. Wall time is the root's to
-/// tell.
+/// When a pipeline is due by quantities that all ranks know: steps, simulated time, broken joints. The root evaluates
+/// wall time.
 class Trigger {
  public:
   /// Without any trigger of the user's: so many times over the run.
@@ -40,7 +40,7 @@ class Trigger {
     broke_ = broken > broken_at_start_;
     if (every_broken_ > 0) next_broken_ = (broken / every_broken_ + 1) * every_broken_;
   }
-  /// To be asked once a step; moves on.
+  /// To be called once a step; advances.
   [[nodiscard]] bool due(const Moment& now) {
     const bool by_time = times_.due(now.time, now.dt, now.step);
     const bool by_steps = every_steps_ > 0 && now.step % every_steps_ == 0;
@@ -74,8 +74,8 @@ class Trigger {
 class Overhead {
  public:
   explicit Overhead(double share) : share_(share) {}
-  /// Whether once more, at the cost of the last time, stays within the share of the wall time gone so far, s; the start
-  /// is free.
+  /// Whether another execution, at the cost of the last one, stays within the share of the elapsed wall time, s;
+  /// start-up does not count.
   [[nodiscard]] bool allows(double elapsed) const { return times_ == 0 || spent_ + last_ <= share_ * elapsed; }
   void account(double seconds) {
     if (times_++ == 0) {

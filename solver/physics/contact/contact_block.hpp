@@ -26,8 +26,8 @@ struct ContactRow {
 /// nowhere, as the contactor is inert.
 enum class Whereabouts : std::uint8_t { inside, beside, outside, nowhere };
 
-/// Eight couples that are looked at. What an empty place holds is computed along, and has to be a contactor's.
-struct alignas(64) LookBlock {
+/// Eight couples to be evaluated. Empty places are computed too, and have to be a contactor's.
+struct alignas(64) LocateBlock {
   const PreparedTetra* tetra[kLanes] = {};
   ContactRow x[3];  ///< m, of the point
   // Results.
@@ -36,8 +36,8 @@ struct alignas(64) LookBlock {
   Whereabouts where[kLanes] = {};
 };
 
-/// Eight couples that go on pressing, side by side, each with a law of its own: what the kernel reads and writes, in
-/// rows (AoSoA). What an empty place holds is computed along and forgotten.
+/// Eight couples in continued contact, each with a law of its own: data that the kernel reads and writes, in rows
+/// (AoSoA). Empty places are computed too and discarded.
 struct alignas(64) ContactBlock {
   // Where: the three nodes of the point's face and the four of the contactor.
   Index node[7][kLanes] = {};
@@ -59,22 +59,22 @@ struct alignas(64) ContactBlock {
   ContactRow spring[3], delayed_force, delayed_age, delayed_halfway, gained, gained_before;
   // Results.
   ContactRow force[3], tangential_force[3], balance;
-  ContactRow spring_energy, slip_energy;  ///< J, held by the spring, dissipated
+  ContactRow spring_energy, slip_energy;  ///< J, stored in the spring, dissipated
   /// 1: not one of the couples that this kernel is for: what it has computed is void (`press_block`).
   std::uint8_t other[kLanes] = {};
 };
 
 /// One step of couples whose points stay under the same function of the overlap of the same contactor, with friction
 /// and without damping: the very operations of contact_pass::Pass::touch in the same order, hence the same bits.
-/// `other` is set where something has to be looked at that is not in the block: another slope of the overlap than one
-/// step ago, no motion, no force any more.
+/// `other` is set where the scalar code has to evaluate the couple: another slope of the overlap than one step ago, no
+/// motion, no force any more.
 /// @param velocity  nodal field, m/s;  @param dt  s
 using PressKernel = void (*)(double dt, const double* velocity, ContactBlock& block);
-using LookKernel = void (*)(LookBlock& block);
+using LocateKernel = void (*)(LocateBlock& block);
 
 /// Compiled for one instruction set.
 struct ContactKernels {
-  LookKernel look;
+  LocateKernel locate;
   PressKernel press;  ///< null: couples are evaluated one by one
 };
 [[nodiscard]] ContactKernels contact_kernels_sse2();

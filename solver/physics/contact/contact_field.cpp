@@ -35,7 +35,7 @@ FieldRamp& ramp_of(Index contactor, ContactState& contact) {
 }
 
 bool has_corner(unsigned set, std::size_t a) { return (set >> a & 1U) != 0; }
-/// Whether a set has three corners; without std::popcount, which is a call where no instruction may be asked for.
+/// Whether a set has three corners; without std::popcount, which is a call in the baseline instruction set.
 bool is_face(unsigned set) { return (((1U << 7) | (1U << 11) | (1U << 13) | (1U << 14)) >> set & 1U) != 0; }
 
 /// One function of an element on the surface. @param weight  of the set, 0 to 1

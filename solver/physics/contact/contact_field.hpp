@@ -45,7 +45,7 @@ enum class Instant { now, step_before };
 [[nodiscard]] OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local,
                                          const ContactState& contact, Index contactor, Instant instant = Instant::now);
 
-/// Whether the sides of a contactor are told apart (rows_for in overlap.hpp).
+/// Whether the sides of a contactor are distinguished (rows_for in overlap.hpp).
 [[nodiscard]] inline bool has_sides(const ContactParams& params, const ContactState& contact, Index contactor) {
   return params.field == OverlapField::body &&
          (contact.field[static_cast<std::size_t>(contactor)].sets & kFractured) == 0;

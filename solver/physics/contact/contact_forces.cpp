@@ -20,8 +20,8 @@ namespace contact_pass {
 
 namespace {
 
-/// Couples that are looked at before the first of their points is evaluated: few, so that all is still at hand.
-constexpr std::size_t kMostLooks = 64;
+/// Couples that are located before the first of their points is evaluated: few, so that they remain in the cache.
+constexpr std::size_t kMostLocated = 64;
 
 }  // namespace
 
@@ -41,32 +41,32 @@ void Pass::run() {
   for (PointCouples& point : contact_.by_point) {
     const std::span<ContactCouple> couples{first, static_cast<std::size_t>(point.count)};
     if (!(contact_.travel < point.apart_until)) look_at(point, couples);
-    if (looks_.size() >= kMostLooks) evaluate_looks();
+    if (located_.size() >= kMostLocated) evaluate_located();
     first += point.count;
   }
-  evaluate_looks();
+  evaluate_located();
   for (; old_ < contact_.touching_before.size(); ++old_) forget(contact_.touching_before[old_]);
   press_waiting();
   contact_.fresh.clear();
 }
 
-/// Finds the contactors that a point is in, and the forces between them. @param end  of its looks
-void Pass::evaluate_point(const PointLooks& looks, std::size_t end) {
-  const Index point = looks.point->point;
+/// Finds the contactors that a point is in, and the forces between them. @param end  of its couples
+void Pass::evaluate_point(const LocatedPoint& located_point, std::size_t end) {
+  const Index point = located_point.point->point;
   candidates_.clear();
   inside_.clear();
   beside_.clear();
-  for (std::size_t k = looks.first; k < end; ++k) {
-    const Look& look = looks_[k];
-    switch (look.where) {
+  for (std::size_t k = located_point.first; k < end; ++k) {
+    const Located& located = located_[k];
+    switch (located.where) {
       case Whereabouts::inside:
-        inside_.push_back({look.couple, look.lambda, look.safe});
+        inside_.push_back({located.couple, located.lambda, located.safe});
         break;
       case Whereabouts::beside:
-        beside_.push_back({look.couple, look.lambda, look.safe});
+        beside_.push_back({located.couple, located.lambda, located.safe});
         break;
       case Whereabouts::outside:
-        look.couple->apart_until = contact_.travel + look.safe;
+        located.couple->apart_until = contact_.travel + located.safe;
         break;
       case Whereabouts::nowhere:
         break;
@@ -77,16 +77,16 @@ void Pass::evaluate_point(const PointLooks& looks, std::size_t end) {
     if (!beside_.empty()) bridge_gaps(point);
     if (!candidates_.empty()) touch_point(point);
   }
-  double& apart_until = looks.point->apart_until;
+  double& apart_until = located_point.point->apart_until;
   apart_until = std::numeric_limits<double>::infinity();
-  for (const ContactCouple& couple : looks.couples) apart_until = std::min(apart_until, couple.apart_until);
+  for (const ContactCouple& couple : located_point.couples) apart_until = std::min(apart_until, couple.apart_until);
 }
 
 PreparedTetra Pass::prepare_element(Index slot) const {
   return prepare(load_corners(local_, state_.position.data(), slot), local_.volume[static_cast<std::size_t>(slot)]);
 }
 
-/// Prepares the contactor where nobody has yet in this step.
+/// Prepares the contactor if it is not prepared yet in this step.
 const PreparedTetra& Pass::prepare_contactor(Index contactor) {
   const auto place = static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)]);
   if (contact_.prepared_in[place] != contact_.calls) {
@@ -186,8 +186,7 @@ double Pass::go_to(const ContactLaw& law, double scale, double length, double g,
 double Pass::follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h) {
   const double lost = go_to(law, scale, length, candidate.g_before, h);
   if (candidate.g == candidate.g_before) return lost;
-  // The offset takes up the field's change: what rises makes no force, what sinks takes force away once the offset is
-  // gone.
+  // The offset follows the change of the field: a rise adds no force, a fall reduces the force once the offset is 0.
   const double stored = normal_law::stored(law, h.d, h.d_max);
   h.offset = std::max(0.0, h.offset + (candidate.g - candidate.g_before));
   std::ignore = go_to(law, scale, length, candidate.g, h);
@@ -224,7 +223,7 @@ Pass::Before Pass::one_step_ago(const ContactPoint& point, Index contactor) cons
 void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const {
   const Vec3& motion = motion_of(point, candidate);
   if (motion == Vec3::Zero()) {
-    // A neighbour that has taken the point over beside an edge goes on with the same force.
+    // A neighbour that now has the point beside an edge continues with the same force.
     if (h.contactor != candidate.contactor) h.offset = candidate.g_before - h.d * length;
     return;
   }

@@ -31,37 +31,38 @@ struct ContactWork {
 ///             a delay of up to friction_delay times the extent of the smaller body
 ///   target    + N_i f_p on the corners of its face;  contactor: - lambda_a f_p on its corners
 ///
-/// so linear and angular momentum hold to round-off for any direction of f_p. History: a couple keeps its
+/// so linear and angular momentum are conserved to round-off for any direction of f_p. History: a couple keeps its
 /// TouchingCouple while it touches; when the point has moved to another contactor of the same body that shares a mesh
-/// vertex with the old one the history moves along. A new couple starts with offset = g if point and contactor share a
-/// mesh vertex or if fracture has just made it, else with 0, so that freeing a face makes no force.
-/// A new couple that is deeper at once than its point has moved inwards takes the excess as its offset.
-/// Sides: in a body of ordinary finite elements g is the least of those sums (contact_field.hpp) whose side looks
-/// towards the face of the point, the normals at more than 96 degrees, or, where there is none, at more than 90.6
-/// (Facing in overlap.hpp): the corner of a block presses on the top of another up to its edge. A point just beside an
-/// edge in an element that has no such side belongs to the nearest neighbour that has one, if it reaches so far by a
-/// hundredth of its height. Where there is none, no force begins: the offset grows with g.
-/// Work and energy: each couple counts the work that its forces have done, as central differences do it, beyond what it
-/// took, holds and dissipates, but for what the turn of a surface makes of a step: along one function of an element the
-/// law has a potential, and such errors cancel. A step in which the overlap begins or ends, or follows a curved law,
-/// leaves an error; a change of the normal force puts it right (contact_balance.hpp), before a force ends as far as
-/// that can be foreseen; where b > 1 the changed force may pull.
-/// A couple whose overlap has ended holds back what it has gained, with d = 0, until next to nothing is left; what is
-/// lost, and what that leaves, the next overlap of the point with the body puts right, if it comes soon. Where the
-/// gradient turns within a step, on the medial surface of a body or from element to element, the offset takes up what
-/// the overlap changes by beyond the mean of both gradients times the motion: it may then be below 0.
+/// vertex with the old one the history is kept. A new couple starts with offset = g if point and contactor share a mesh
+/// vertex or if fracture has just made it, else with 0, so that freeing a face makes no force.
+/// If a new couple is deeper than its point has moved inwards, the excess is its offset.
+/// Sides: in a body of ordinary finite elements g is the least of those sums (contact_field.hpp) whose side faces the
+/// face of the point, with more than 96 degrees between the normals, or, without one, more than 90.6 (Facing in
+/// overlap.hpp): the corner of a block presses on the top of another up to its edge. A point just beside an edge in an
+/// element without such a side belongs to the nearest neighbour that has one, within a hundredth of its height. Without
+/// any, no force starts: the offset grows with g.
+/// Work and energy: each couple accumulates its energy gain, the work of its forces by central differences beyond the
+/// absorbed, stored and dissipated energy, without the effect of the rotation of a surface in a step: along one
+/// function of an element the law has a potential, and such errors cancel. A step in which the overlap begins or ends,
+/// or follows a curved law, leaves an error; a change of the normal force corrects it (contact_balance.hpp), before the
+/// force ends if that can be predicted; for b > 1 the changed force may be tensile.
+/// After separation (d = 0) a small tensile force removes the energy that the contact gained numerically; a loss and
+/// the remaining gain are corrected in the next overlap of the point with the body, if it begins soon. When the
+/// gradient switches within a step, on the medial surface of a body or from element to element, the part of the overlap
+/// change that the trapezoidal work (mean of both gradients times the motion) does not explain is added to the offset,
+/// which may then be below 0.
 /// A point that leaves its contactor other than through the surface, into a joint that opens, stays with it for a
-/// hundredth of its height; farther out the couple is cut off, and what it held is accounted as dissipated.
-/// The first thing done is one step of the field's ramps. The offset of a couple follows a change of g that comes from
-/// the field alone, down to 0 at least: a field that rises exerts no force, one that sinks lets go of stored energy,
-/// which is accounted as dissipated.
-/// Couples that are sure to be apart (ContactCouple::apart_until, ContactState::travel) are passed over: the same bits.
+/// hundredth of its height; farther out the couple ends, and its stored energy is dissipated.
+/// First, the ramps of the field advance by one step. The offset of a couple follows a change of g due to the field
+/// alone, down to 0 at least: a rising field exerts no force, a falling one releases stored energy, which is
+/// dissipated.
+/// Couples that cannot touch (ContactCouple::apart_until, ContactState::travel) are skipped: bitwise the same.
 ///
 /// @param state    position at t_n, velocity at t_(n-1/2)
 /// @param dt       s, from t_(n-1) to t_n
 /// @param contact  couples sorted; apart_until, histories, field and scratch are written, `fresh` is emptied
 /// @param forces   added to, in the order (point id, contactor)
-/// @param simd     available.  @param side_by_side  whether couples that go on pressing are. The same bits
+/// @param simd     available.  @param side_by_side  whether couples in continued contact are. Bitwise the same
 /// @pre dt >= 0; couples hold every pair that touches. O(couples) + O(points) with a sphere. Throws nothing.
 void contact_forces(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
                     ContactState& contact, NodalForces& forces, ContactWork& work, Simd simd = best_simd(),

@@ -7,7 +7,7 @@
 #include "physics/contact/contact_pass.hpp"
 #include "physics/contact/friction.hpp"
 
-/// Which couple of this step goes on from which of the last one, and what is left of those that do not.
+/// Continues the couples of the last step in those of this one, and ends the others.
 namespace breccia::contact_pass {
 
 /// A point that pressed on an element and is now in a joint that opens beside it, in none of its neighbours, keeps its
@@ -35,7 +35,7 @@ void Pass::bridge_gaps(Index point) {
   prefer_facing_sides(point_at(point), inside_one);
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.contactor < b.contactor; });
-  // Two that share the place of the point may have been taken over by one.
+  // One may have replaced two that share the place of the point.
   const auto last = std::unique(candidates_.begin(), candidates_.end(),
                                 [](const Candidate& a, const Candidate& b) { return a.contactor == b.contactor; });
   candidates_.erase(last, candidates_.end());
@@ -49,13 +49,13 @@ Facing Pass::side_over(const ContactPoint& point, const Nearby& here) const {
   return most.rows != 0 && overlap_value(shape, here.lambda, most.rows) > 0 ? most.facing : Facing::away;
 }
 
-/// The nearest neighbour of a candidate with a side that the point's face looks at more; null: none.
+/// The nearest neighbour of a candidate with a side that faces the point's face more; null: none.
 const Nearby* Pass::facing_more(const ContactPoint& point, Index candidate) const {
   const Nearby* best = nullptr;
   std::optional<Facing> most;
   for (const Nearby& here : beside_) {
     const Index contactor = here.couple->contactor;
-    // Most surfaces of debris have no sides that are told apart.
+    // Most surfaces of debris have no distinguished sides.
     if (!has_sides(params_, contact_, contactor) || !are_neighbours(contactor, candidate)) continue;
     if (!most) most = rows_facing(shape_of(candidate), prepared(candidate), outward_of(point)).facing;
     if (best == nullptr && *most == Facing::well) return nullptr;
@@ -69,7 +69,7 @@ const Nearby* Pass::facing_more(const ContactPoint& point, Index candidate) cons
 }
 
 /// Just beside an edge a point may be in an element that has only the other side of the edge: the nearest neighbour
-/// with a side that the point's face looks at more takes it over, as if it reached so far.
+/// with a side that faces the point's face more replaces it, as if it extended so far.
 /// @param inside  number of candidates that the point is in, which come first
 void Pass::prefer_facing_sides(const ContactPoint& point, std::size_t inside) {
   for (std::size_t i = 0; i < inside; ++i) {
@@ -126,7 +126,7 @@ void Pass::find_histories(Index point) {
 /// couple that has ended, a candidate there gets what is left to put right and the delayed force.
 void Pass::take_over(std::size_t first, std::size_t last) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
-  // The usual case: a point goes on in the element that it was in.
+  // The usual case: a point remains in its element.
   if (candidates_.size() == 1 && last == first + 1 && old[first].contactor == candidates_[0].contactor &&
       !has_ended(old[first])) {
     candidates_[0].old = static_cast<std::ptrdiff_t>(first);
@@ -159,7 +159,7 @@ void Pass::take_over(std::size_t first, std::size_t last) {
   }
 }
 
-/// The overlap is gone. What the normal law had stored was given back as work, or is lost; the spring lets go.
+/// The overlap has ended. The stored energy of the normal law was returned as work, or is lost; the spring is released.
 /// @param lost  J, by the normal law
 void Pass::forget(const TouchingCouple& old, double lost) {
   if (!(old.d > 0) && old.force == Vec3::Zero() && old.gained_before == 0 && old.delayed.age == 0) return;
@@ -188,8 +188,8 @@ void Pass::forget(const TouchingCouple& old, double lost) {
                              ? overlap_value(shape_of(old.contactor), lambda, one_step_ago(point, old.contactor).rows)
                          : is_growing(old.contactor) ? overlap_value(shape_of(old.contactor), lambda)
                                                      : least_function_of(old.contactor, lambda).g;
-  // The point has not left through the side that it pressed on. Where a crack has opened under it, what the couple held
-  // is gone; where it has left over an edge, all but the work of its force over half of the last step.
+  // The point has not left through the side that it pressed on. If a crack has opened under it, the stored energy is
+  // dissipated; if the point left across an edge, the same less the work of its force over half of the last step.
   if (overlap > 0) {
     const double work = has_own_sides ? 0.5 * (old.force - old.friction).dot(motion) : 0.0;
     const double gone = std::max(normal_held(point, old) - work, 0.0);
@@ -232,11 +232,10 @@ void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3
   h.gained = 0;
 }
 
-/// Whether no side of the surface looks towards the face of the point: the front of a block, say, where a point of the
-/// floor comes into an element that does not reach down to the lower edge. Pushed back there it would stop the block,
-/// which slides over it. Nor is it pushed by a side far away that it looks at but has not come through, next to another
-/// one: on the lower side of a stone of an arch, by the upper side of the next. Without motion the places have been
-/// given, not moved to.
+/// Whether no side of the surface faces the face of the point, for example at the front of a block, where a point of
+/// the floor enters an element above the lower edge. A force there would stop the block, which slides over the point.
+/// No force starts either if the nearest facing surface is deeper than kFarSide: on the lower side of a stone of an
+/// arch, from the upper side of the next. Without motion the positions are initial ones.
 /// @param offset  m, of the couple, which exerts no force
 bool Pass::comes_from_beside(const ContactPoint& point, Candidate& candidate, double offset) const {
   if (motion_of(point, candidate) == Vec3::Zero()) return false;
@@ -260,11 +259,11 @@ double Pass::first_offset(Index point, Candidate& candidate) const {
                                                              });
   const Index slot = slot_of(candidate.contactor);
   if (is_fresh || share_vertex(local_, point_at(point).slot, slot)) return std::max(candidate.g_before, 0.0);
-  // A point that comes through a gap between elements, an opened joint say, is deep inside at once: deeper than it
+  // A point that comes through a gap between elements, such as an open joint, is deep inside at once: deeper than it
   // moved inwards.
   const Vec3& motion = motion_of(point_at(point), candidate);
   if (motion == Vec3::Zero()) {
-    // Given places: of bodies that stand on each other, a point at an edge is far behind the side that it looks at.
+    // Initial positions: for bodies on top of each other, a point at an edge is far behind the side that faces it.
     const double depth = overlap_value(shape_of(candidate.contactor), candidate.lambda);
     return depth > kOverlapTolerance * length_of(slot) ? 0.0 : std::max(candidate.g_before, 0.0);
   }

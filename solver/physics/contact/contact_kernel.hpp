@@ -146,7 +146,7 @@ inline void act(const Some& at, double dt, const double* velocity) {
 }
 
 /// Where the points of W couples are.
-inline void look(LookBlock& b, std::size_t first) {
+inline void locate(LocateBlock& b, std::size_t first) {
   const PreparedTetra* const* some = b.tetra + first;
   PreparedTetraOf<Real> tetra;
   std::array<Real, 3> x;
@@ -171,8 +171,8 @@ inline void look(LookBlock& b, std::size_t first) {
   }
 }
 
-inline void look_block(LookBlock& block) {
-  for (std::size_t first = 0; first < kLanes; first += kWidth) look(block, first);
+inline void locate_block(LocateBlock& block) {
+  for (std::size_t first = 0; first < kLanes; first += kWidth) locate(block, first);
 }
 
 inline void press_block(double dt, const double* velocity, ContactBlock& block) {

@@ -2,6 +2,6 @@
 
 namespace breccia {
 
-ContactKernels contact_kernels_avx2() { return {look_block, press_block}; }
+ContactKernels contact_kernels_avx2() { return {locate_block, press_block}; }
 
 }  // namespace breccia

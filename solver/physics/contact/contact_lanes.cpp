@@ -3,8 +3,7 @@
 #include "physics/contact/contact_field.hpp"
 #include "physics/contact/contact_pass.hpp"
 
-/// Couples that go on as in the last step, nearly all of those of debris at rest, are evaluated side by side
-/// (contact_block.hpp).
+/// Couples in continued contact, nearly all of those of debris at rest, are evaluated side by side (contact_block.hpp).
 namespace breccia::contact_pass {
 
 namespace {
@@ -20,41 +19,41 @@ Vec3 take(const ContactRow (&rows)[3], std::size_t lane) { return {rows[0][lane]
 
 }  // namespace
 
-/// Looks where a point is in its contactors.
+/// Locates a point in its contactors.
 void Pass::look_at(PointCouples& point, std::span<ContactCouple> couples) {
   const Vec3 x = at_point(rule_, point_at(point.point), state_.position.data());
-  points_.push_back({&point, couples, looks_.size()});
+  points_.push_back({&point, couples, located_.size()});
   for (ContactCouple& couple : couples) {
     if (contact_.travel < couple.apart_until) continue;
-    const std::size_t lane = looks_.size() % kLanes;
-    Look& look = looks_.emplace_back();
-    look.couple = &couple;
-    look_block_.tetra[lane] = &prepare_contactor(couple.contactor);
-    put(x, lane, look_block_.x);
-    if (lane + 1 == kLanes) locate(looks_.size() - kLanes);
+    const std::size_t lane = located_.size() % kLanes;
+    Located& located = located_.emplace_back();
+    located.couple = &couple;
+    locate_block_.tetra[lane] = &prepare_contactor(couple.contactor);
+    put(x, lane, locate_block_.x);
+    if (lane + 1 == kLanes) locate(located_.size() - kLanes);
   }
 }
 
-/// Evaluates the block. @param first  of its looks
+/// Evaluates the block. @param first  of its couples
 void Pass::locate(std::size_t first) {
-  const std::size_t count = looks_.size() - first;
-  for (std::size_t lane = count; lane < kLanes; ++lane) look_block_.tetra[lane] = look_block_.tetra[0];
-  kernels_.look(look_block_);
+  const std::size_t count = located_.size() - first;
+  for (std::size_t lane = count; lane < kLanes; ++lane) locate_block_.tetra[lane] = locate_block_.tetra[0];
+  kernels_.locate(locate_block_);
   for (std::size_t lane = 0; lane < count; ++lane) {
-    Look& look = looks_[first + lane];
-    for (std::size_t a = 0; a < 4; ++a) look.lambda[a] = look_block_.lambda[a][lane];
-    look.safe = look_block_.safe[lane];
-    look.where = look_block_.where[lane];
+    Located& located = located_[first + lane];
+    for (std::size_t a = 0; a < 4; ++a) located.lambda[a] = locate_block_.lambda[a][lane];
+    located.safe = locate_block_.safe[lane];
+    located.where = locate_block_.where[lane];
   }
 }
 
-/// Evaluates the points that have been looked at.
-void Pass::evaluate_looks() {
-  if (const std::size_t rest = looks_.size() % kLanes; rest > 0) locate(looks_.size() - rest);
+/// Evaluates the located points.
+void Pass::evaluate_located() {
+  if (const std::size_t rest = located_.size() % kLanes; rest > 0) locate(located_.size() - rest);
   for (std::size_t i = 0; i < points_.size(); ++i)
-    evaluate_point(points_[i], i + 1 < points_.size() ? points_[i + 1].first : looks_.size());
+    evaluate_point(points_[i], i + 1 < points_.size() ? points_[i + 1].first : located_.size());
   points_.clear();
-  looks_.clear();
+  located_.clear();
 }
 
 /// Whether the point may be one for the block: in one contactor, whose field is at rest and beside which no side could
@@ -151,7 +150,7 @@ void Pass::fill_lane(const ContactLaw& law, double length, const TouchingCouple&
   block_.delayed_age[lane] = old.delayed.age;
   block_.delayed_halfway[lane] = old.delayed.halfway;
   block_.gained[lane] = old.gained;
-  block_.gained_before[lane] = old.gained_before + 0.0;  // as touch() adds what it takes over: no negative zero
+  block_.gained_before[lane] = old.gained_before + 0.0;  // as touch() adds the former gain: no negative zero
 }
 
 /// Evaluates the block, and adds all forces in the order in which they came.

@@ -38,29 +38,29 @@ struct Candidate {
   DelayedForce delayed{};        ///< of the same
   double turn = 0;               ///< m, gradient now times the last motion beyond what the overlap has changed by
   std::ptrdiff_t old = -1;       ///< index of its history among those of the last step, -1: none
-  std::optional<Vec3> motion{};  ///< m, relative_motion(), once it has been asked for
+  std::optional<Vec3> motion{};  ///< m, relative_motion(), once it has been computed
 };
 
 /// A couple of the point at hand that lies in the contactor or just beside it.
 struct Nearby {
   ContactCouple* couple;
   std::array<double, 4> lambda;
-  double safe;  ///< m, as in LookBlock
+  double safe;  ///< m, as in LocateBlock
 };
 
-/// A couple that is looked at, and where its point is.
-struct Look {
+/// A couple to be evaluated, and the position of its point.
+struct Located {
   ContactCouple* couple;
   std::array<double, 4> lambda;
-  double safe;  ///< m, as in LookBlock
+  double safe;  ///< m, as in LocateBlock
   Whereabouts where;
 };
 
-/// A point that is looked at, with its couples.
-struct PointLooks {
+/// A point to be evaluated, with its couples.
+struct LocatedPoint {
   PointCouples* point;
   std::span<ContactCouple> couples;
-  std::size_t first;  ///< of its looks
+  std::size_t first;  ///< of its couples
 };
 
 /// A force that is to be added to nodes, in its turn: of a couple in the block, or known already.
@@ -117,8 +117,8 @@ class Pass {
   [[nodiscard]] PreparedTetra prepare_past_contactor(Index contactor);
   void look_at(PointCouples& point, std::span<ContactCouple> couples);
   void locate(std::size_t first);
-  void evaluate_looks();
-  void evaluate_point(const PointLooks& looks, std::size_t end);
+  void evaluate_located();
+  void evaluate_point(const LocatedPoint& located_point, std::size_t end);
   void bridge_gaps(Index point);
   [[nodiscard]] const Nearby* facing_more(const ContactPoint& point, Index candidate) const;
   void prefer_facing_sides(const ContactPoint& point, std::size_t inside);
@@ -219,7 +219,7 @@ class Pass {
   [[nodiscard]] double held(const ContactPoint& point, const TouchingCouple& h) const {
     return normal_held(point, h) + 0.5 * spring_stiffness(point, h) * h.spring.squaredNorm();
   }
-  /// @pre the contactor has been looked at in this step
+  /// @pre the contactor has been evaluated in this step
   [[nodiscard]] const PreparedTetra& prepared(Index contactor) const {
     return contact_.prepared[static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)])];
   }
@@ -259,17 +259,17 @@ class Pass {
   ContactWork& work_;
   ContactKernels kernels_;
   const FaceRule& rule_;
-  std::vector<PointLooks> points_;     ///< a few, to be evaluated next
-  std::vector<Look> looks_;            ///< of these
+  std::vector<LocatedPoint> points_;   ///< a few, to be evaluated next
+  std::vector<Located> located_;       ///< of these
   std::vector<Candidate> candidates_;  ///< of the point at hand, ascending
   std::vector<Nearby> inside_;         ///< of the same point, ascending: couples whose contactor holds it
   std::vector<Nearby> beside_;         ///< likewise: it lies just outside
   std::vector<bool> taken_;            ///< old histories of the point at hand that live on
-  std::size_t old_ = 0;                ///< first old history not yet looked at
+  std::size_t old_ = 0;                ///< first old history not yet compared
   ExactSum ignored_;                   ///< what other ranks account
 
   // Couples of the points before that are evaluated side by side, and all forces from the first of these on.
-  LookBlock look_block_;
+  LocateBlock locate_block_;
   ContactBlock block_;
   std::array<Lane, kLanes> lanes_;
   std::size_t filled_ = 0;

@@ -31,22 +31,23 @@ struct PointCouples {
 };
 
 /// A couple that touches, with its history. It lives as long as the overlap: a point that slides into a neighbouring
-/// element takes it along, a point that leaves the body forgets it. Only what the couple has gained or lost and its
-/// delayed normal force live on, with d = 0 and without offset: first the force that holds back gains, then, while the
-/// point stays near, what is left for its next overlap with the body to put right or to go on from.
+/// element keeps it, a point that leaves the body loses it. Only the energy gained or lost by the couple and its
+/// delayed normal force remain, with d = 0 and without offset: first a tensile force removes gains, then, while the
+/// point stays near, the rest is kept for correction in its next overlap with the body.
 struct TouchingCouple {
   Index point = 0;
   Index contactor = 0;
   double d = 0;              ///< overlap over H, offset taken off
   double d_max = 0;          ///< largest d since the overlap began
-  double offset = 0;         ///< m, overlap without force, or force before an overlap (contact_forces.hpp)
+  double offset = 0;         ///< m, overlap without force; < 0: force before an overlap (contact_forces.hpp)
   Vec3 spring{0, 0, 0};      ///< m, elongation of the friction spring
   Vec3 friction{0, 0, 0};    ///< N, tangential force on the point
   DelayedForce delayed{};    ///< normal force that limits friction
   Vec3 force{0, 0, 0};       ///< N, whole force on the point
   double balance = 0;        ///< share of its normal force by which the force was changed to balance the work of a step
-  double gained = 0;         ///< J, work done since the force began beyond what it took and holds (contact_forces.hpp)
-  double gained_before = 0;  ///< J, the same of earlier overlaps, not yet put right
+  double gained = 0;         ///< J, energy gain since the force began: work beyond absorbed and stored energy
+                             ///< (contact_forces.hpp)
+  double gained_before = 0;  ///< J, the same of earlier overlaps, not yet corrected
 };
 
 /// Among CornerSets, where bit 0 stands for no set: fracture has added some to those of the mesh.
@@ -95,8 +96,8 @@ struct ContactState {
   double near = std::numeric_limits<double>::infinity();
   std::vector<ContactCouple> couples;  ///< by (point id, contactor)
   std::vector<PointCouples> by_point;  ///< the same, point by point; made with them (contact_couples.hpp)
-  /// Sum over the steps so far of the largest motion of any node of this rank's couples, m. As long as nobody counts
-  /// it, couples are looked at in every step.
+  /// Sum over the steps so far of the largest motion of any node of this rank's couples, m. While it is not counted
+  /// (infinite), couples are evaluated in every step.
   double travel = std::numeric_limits<double>::infinity();
   std::vector<ContactCouple> fresh;  ///< made by fracture since the last forces; by (point id, contactor)
 

@@ -108,7 +108,7 @@ class Surface {
             .sets = contactor >= 0 ? std::int32_t{model_.state->field[at(contactor)].sets} : -1};
   }
 
-  /// A_i/m_i and 1/m_i of an element's corners on its open faces; 0 for others and held ones.
+  /// A_i/m_i and 1/m_i of an element's corners on its open faces; 0 for others and constrained ones.
   void set_corners(Index slot, ContactElement& element) const {
     const LocalMesh& mesh = model_.mesh;
     std::array<Mat3, 4> sum;
@@ -165,7 +165,8 @@ class Surface {
     return slope.squaredNorm();
   }
 
-  /// Calls f(place, face's matrix, x_i's share of it) for the corners of open faces on shared nodes that are not held.
+  /// Calls f(place, face's matrix, x_i's share of it) for the corners of open faces on shared nodes that are not
+  /// constrained.
   template <class F>
   void for_each_shared_corner(F&& f) const {
     const LocalMesh& mesh = model_.mesh;
@@ -388,7 +389,7 @@ class ContactShares::Impl {
   double time_;
   Surface surface_;
   PatchesNearby nearby_;
-  std::vector<Near> near_;       ///< (patches) of those that have been asked for
+  std::vector<Near> near_;       ///< (patches) of those that have been requested
   std::vector<double> at_most_;  ///< (patches) 1/s2, or kUnknown
 };
 

@@ -17,7 +17,7 @@
 
 namespace breccia {
 
-/// What contact adds to the frequency of an element, and so takes from the stable step.
+/// Contribution of contact to the frequency of an element, which reduces the stable step.
 ///
 /// A couple of a point (weight w, shape N on the target's nodes) and a contactor (barycentric lambda) is a stiffness
 /// w kappa g g^T of rank one, kappa = s / H with s = stiffest_slope(law), g the gradient of the overlap. By rows it is
@@ -31,15 +31,15 @@ namespace breccia {
 /// its neighbours for x (two steps of a power iteration) light nodes between heavy ones count for less. Of the sum of
 /// several faces the largest component in any direction: along the normal of each, across it as far as friction is
 /// elastic. w: weight of a point, which may lie on one node of a smaller contactor; G: slope of the overlap field. Both
-/// directions, P on Q and Q on P, act at once. Nodes that are held in all directions weigh infinitely much.
+/// directions, P on Q and Q on P, act at once. Nodes constrained in all directions have infinite mass.
 ///
 /// Damping adds to it (ContactBound in contact_step.cpp).
 ///
-/// Who can meet is decided part by part: free faces are put in cells of about `kCellSizes` face sizes at their present
+/// Possible contacts are found by parts: free faces are put in cells of about `kCellSizes` face sizes at their present
 /// places, those of a body in a cell make a patch, and patches count against each other when their boxes come within
-/// `kSpeedMargin` of their relative speeds times the time until the next look, and a share of their faces' size. A
-/// patch is merged from what ranks hold of it by exact maxima, so the result is the same on any number of ranks; it
-/// knows nothing of couples and searches.
+/// `kSpeedMargin` of their relative speeds times the time until the next evaluation, and a share of their faces' size.
+/// A patch is merged from its parts on the ranks by exact maxima, so the result is the same on any number of ranks; it
+/// does not depend on couples and searches.
 
 /// Faces of one rank's elements, a bit a face.
 struct ContactFaces {
@@ -51,11 +51,12 @@ struct ContactFaces {
 
 /// What the open faces of an element add, but for who is near.
 struct ContactElement {
-  std::array<double, 4> area_over_mass{}, per_mass{};    ///< A_i/m_i, 1/m_i of corners on open faces; 0: others, held
+  std::array<double, 4> area_over_mass{}, per_mass{};    ///< A_i/m_i, 1/m_i of corners on open faces; 0: others,
+                                                         ///< constrained ones
   std::array<double, 4> area{}, longest{}, steepness{};  ///< by open face: m2; m, edge; G^2
 };
 
-/// ContactElement of elements that own their nodes, which only changes with the following: kept from look to look.
+/// ContactElement of elements that own their nodes, which only changes with the following: kept between evaluations.
 class ContactElements {
  public:
   struct Cause {
@@ -82,7 +83,7 @@ class ContactElements {
     Cause cause;
     ContactElement element;
   };
-  std::vector<Index> place_;  ///< (slots) in known_, -1: never asked for
+  std::vector<Index> place_;  ///< (slots) in known_, -1: never requested
   std::vector<Known> known_;
 };
 
@@ -132,7 +133,7 @@ struct ContactPatch {
 
 /// Edges of a cell in largest face sizes of its level.
 inline constexpr double kCellSizes = 1.0;
-/// Relative speeds may grow by this factor until the next look.
+/// Relative speeds may grow by this factor until the next evaluation.
 inline constexpr double kSpeedMargin = 2.0;
 /// Patches come near each other by this share of their faces' size however slow they are.
 inline constexpr double kSizeMargin = 0.25;
@@ -153,7 +154,7 @@ struct ContactPatches {
 [[nodiscard]] ContactPatches contact_patches(const ContactStepModel& model, const Field<double>& position,
                                              const Field<double>& velocity, double coarsening);
 
-/// What contact adds to the elements one by one, at one look.
+/// Contributions of contact to the elements, of one evaluation.
 class ContactShares {
  public:
   /// @param patches  of the whole model, merged, at the same positions
@@ -166,7 +167,7 @@ class ContactShares {
 
   /// omega_c^2 of an original; 0 where nothing can be met. O(log patches) for the first of its patch
   [[nodiscard]] ContactShare of(Index slot);
-  /// No less than any corner of it has, 1/s2, found without looking who is near: as if it could meet everything.
+  /// No less than any corner of it has, 1/s2, computed without a search: as if it could be in contact with everything.
   /// O(groups) for the first of its patch
   [[nodiscard]] double at_most(Index slot);
 

@@ -51,23 +51,23 @@ template <class Vector, class Real = typename Vector::Scalar>
   return {-k * xi, select(slides, dissipated, zero)};
 }
 
-/// The normal force that limits friction, late.
+/// The delayed normal force that limits friction.
 template <class Real>
 struct DelayedForceOf {
   Real force = 0.0;    ///< N
-  Real age = 0.0;      ///< s, of the overlap, up to kSettledAge longest delays; counts down while there is none
-  Real halfway = 0.0;  ///< N, late by half of the delay: what `force` follows
+  Real age = 0.0;      ///< s, of the overlap, up to kSteadyAge longest delays; counts down while there is none
+  Real halfway = 0.0;  ///< N, delayed by half of the delay: `force` follows it
 };
 using DelayedForce = DelayedForceOf<double>;
 
 /// Age of an overlap from which on friction is latest, in longest delays. A half wave that presses for 0.3, 1 or 4 of
 /// them rubs 0.1, 0.5 or 1.9 % more than by Coulomb's law.
-inline constexpr double kSettledAge = 14;
+inline constexpr double kSteadyAge = 14;
 
 /// One step of a force f that follows the normal force f_n with a delay that grows with the age a of the overlap, in
 /// two stages:
 ///
-///   df/dt = (h - f) / (t/2),  dh/dt = (f_n - h) / (t/2),  t = longest min(1, (a / (kSettledAge longest))^2)
+///   df/dt = (h - f) / (t/2),  dh/dt = (f_n - h) / (t/2),  t = longest min(1, (a / (kSteadyAge longest))^2)
 ///
 /// Elastic bodies that slide on each other are unstable where the limit of friction follows the normal force at once:
 /// friction feeds vibrations, which take it away [Adams 1995]. Where it follows over some crossings of the smaller body
@@ -81,8 +81,8 @@ template <class Real>
 void follow_normal_force(const std::type_identity_t<Real>& normal, const std::type_identity_t<Real>& dt,
                          const std::type_identity_t<Real>& longest, DelayedForceOf<Real>& delayed) {
   using elasticity::select;
-  delayed.age = elasticity::lesser(Real(delayed.age + dt), Real(kSettledAge * longest));
-  const Real settled = select(longest > 0.0, Real(delayed.age / (kSettledAge * longest)), Real(0.0));
+  delayed.age = elasticity::lesser(Real(delayed.age + dt), Real(kSteadyAge * longest));
+  const Real settled = select(longest > 0.0, Real(delayed.age / (kSteadyAge * longest)), Real(0.0));
   const Real half = 0.5 * longest * settled * settled;
   const auto late = dt < half;
   const Real share = dt / half;
@@ -98,8 +98,8 @@ inline void forget_normal_force(double dt, DelayedForce& delayed) {
   if (!(delayed.age > 0)) delayed = {};
 }
 
-/// Turns a spring with the surfaces that it lies between, by an angle about their normal: what sticks to a body that
-/// spins about the normal is held as on one at rest. Cayley's form of the rotation keeps lengths; it turns by
+/// Turns a spring with the surfaces that it lies between, by an angle about their normal: a point that sticks to a body
+/// spinning about the normal is treated as on one at rest. Cayley's form of the rotation keeps lengths; it turns by
 /// a - a^3/12 for an angle a.
 /// @param normal  unit vector;  @param angle  rad, of both surfaces in the mean during the step
 template <class Vector, class Real = typename Vector::Scalar>
@@ -109,7 +109,8 @@ void turn_spring(const std::type_identity_t<Vector>& normal, const std::type_ide
   xi += 2.0 / (1.0 + half.squaredNorm()) * (across + half.cross(across));
 }
 
-/// Of a spring that lets go in a step, J, >= 0: the same with the limit 0. @param motion  as above, along the surface
+/// Of a spring that is released in a step, J, >= 0: the same with the limit 0. @param motion  as above, along the
+/// surface
 template <class Vector>
 [[nodiscard]] double released_by_friction(const std::type_identity_t<Vector>& motion, double k, const Vector& xi) {
   return elasticity::greater(0.0, 0.5 * k * xi.dot(xi + motion));

@@ -68,7 +68,7 @@ struct OverlapShape {
     side_of[rows] = -1;
     row[rows++] = function;
   }
-  /// Of the last function; where it is zero the function itself tells. @pre fewer than kMostSides so far
+  /// Of the last function; where it is zero the function itself decides. @pre fewer than kMostSides so far
   void set_side(const std::array<double, 4>& function) {
     if (function == std::array<double, 4>{}) return;
     side_of[rows - 1] = static_cast<std::int8_t>(sides);
@@ -113,14 +113,14 @@ struct Overlap {
 using OverlapRows = std::uint32_t;
 inline constexpr OverlapRows kAllRows = ~OverlapRows{0};
 
-/// How much the sides of the surface look towards a face: by the cosine of the angle between their outward normals.
+/// How much the sides of the surface face another face: by the cosine of the angle between their outward normals.
 enum class Facing : std::uint8_t {
   away,
   barely,  ///< at most -kBarelyFacing: sides of what is sharp and, on a block that bulges, those beside the loaded one
   well     ///< at most -kWellFacing
 };
-/// Little, so that what is sharp is felt: a wedge that comes down on a flat face from an opening of 1.2 degrees on, two
-/// crossed ridges, whose sides look past each other more, from 11.5 degrees on.
+/// Small, so that sharp edges are detected: a wedge on a flat face from an opening of 1.2 degrees on, two crossed
+/// ridges, whose sides face each other less, from 11.5 degrees on.
 inline constexpr double kBarelyFacing = 0.01;
 /// Sides of a body that is squeezed tilt by some degrees. Were they to count as well, points of the platens next to its
 /// edges would push it sideways: 0.08 % of the energy went there.
@@ -143,7 +143,7 @@ struct FacingRows {
   Facing facing = Facing::away;
 };
 
-/// The functions whose side of the surface looks towards a face the most; none where all look away.
+/// The functions whose side of the surface faces a given face the most; none if all face away.
 /// @param outward  normal of the face, of any length
 [[nodiscard]] inline FacingRows rows_facing(const OverlapShape& shape, const PreparedTetra& tetra,
                                             const Vec3& outward) {
@@ -156,10 +156,9 @@ struct FacingRows {
   return most;
 }
 
-/// The functions that count for a point on a face, where sides are told apart: those whose side looks towards it the
-/// most, through which the point enters, also just beside an edge, where another side is nearer; all where there is
-/// none. Not for elements at which cracks have made new sides: told apart there, sides made up to two thirds of the
-/// energy put in, in 3 of 22 fragmentations.
+/// The functions that apply to a point on a face, where sides are distinguished: those whose side faces it the most,
+/// through which the point enters, also just beside an edge, where another side is nearer; all where there is none. Not
+/// for elements at cracks, whose new sides would produce energy if they were distinguished.
 /// @param outward  as above
 [[nodiscard]] inline OverlapRows rows_for(const OverlapShape& shape, const PreparedTetra& tetra, const Vec3& outward) {
   const FacingRows most = rows_facing(shape, tetra, outward);

@@ -10,13 +10,12 @@
 
 namespace breccia {
 
-/// Which patches may meet (contact_step.hpp). All stand in a tree, whose nodes know the largest numbers of the patches
-/// below: where even these bound nothing that is not bounded already none of them is looked at. For contact_step.cpp
-/// only.
+/// Which patches may meet (contact_step.hpp). They are stored in a tree, whose nodes have the largest values of the
+/// patches below: where even these do not change the bound none of them is evaluated. For contact_step.cpp only.
 class PatchesNearby {
  public:
   /// @param patches  of the whole model, merged, not empty; they and params outlive this object
-  /// @param time     s, until the next look.  O(patches log patches)
+  /// @param time     s, until the next evaluation.  O(patches log patches)
   PatchesNearby(const ContactParams& params, std::span<const ContactPatch> patches, double time);
 
   /// Of patch p in contact with any that it may meet: the bounds that no other dominates.

@@ -10,7 +10,7 @@ namespace {
 /// Share of the force on a point, 1 but in the step within which it has come out of the sphere, or is to come back with
 /// the motion of the last one. Of a motion D out to a depth d central differences take 1/2 k d D there, and give as
 /// much on the way back, where 1/2 k d^2 is stored: with this share, which acts in two steps, they take and give that.
-/// Without it a body that comes back slower than it went, since it spins or rings then, has lost energy to nobody.
+/// Without it a body that returns slower, since it spins or vibrates, would lose unaccounted energy.
 /// @param beyond  d, m;  @param moved  m, outwards, in the last step
 double balanced_share(double beyond, double moved) {
   const double way = std::abs(moved);

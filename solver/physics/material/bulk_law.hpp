@@ -19,13 +19,13 @@ struct MemoryField {
 /// virgin state of every law.
 [[nodiscard]] std::span<const MemoryField> memory_fields(BulkLaw law);
 
-/// Doubles an element remembers, at most, whatever its law.
+/// Largest number of internal variables (doubles) of an element, for any law.
 inline constexpr std::size_t kLargestMemory = 15;
 
 /// Doubles an element of the law remembers.
 [[nodiscard]] std::size_t memory_size(BulkLaw law);
 
-/// Of these, the one that tells the plastic work so far, J/m3 of reference volume; -1: the law has no plastic flow.
+/// Of these, the one of the plastic work so far, J/m3 of reference volume; -1: the law has no plastic flow.
 [[nodiscard]] int plastic_work_place(BulkLaw law);
 
 /// The memory of all elements: that of a slot from first + slot stride on. Empty: all are virgin.
@@ -38,8 +38,8 @@ struct MaterialMemory {
 
 // Laws element by element. @param f  deformation gradient, row-major
 
-/// One step of a law with memory: the first Piola stress at f without its viscous part, Pa, and what the element
-/// remembers from there on. Code of the baseline instruction set, whatever that of its caller.
+/// One step of a law with memory: the first Piola stress at f without its viscous part, Pa, and the new internal
+/// variables. Code of the baseline instruction set, for callers of any.
 /// @param memory  read and written;  @param piola  out: [9].  @pre has_memory(p.law)
 void step_bulk_law(const ElasticParams& p, const double* f, double* memory, double* piola);
 

@@ -16,7 +16,7 @@ struct Problem {
   [[nodiscard]] double cone(double mean) const {
     return trial.shear + p.friction * mean - p.cohesion_factor * cohesion;
   }
-  /// By how much f_s falls a unit of gamma_s while the mean stress is held.
+  /// Decrease of f_s per unit of gamma_s at constant mean stress.
   [[nodiscard]] double at_held_mean() const { return mu + p.cohesion_factor * p.hardening; }
   [[nodiscard]] double along_flow() const { return at_held_mean() + p.friction * p.dilation * bulk; }
   /// Stress on the cone at a mean stress, after gamma_s of flow.
@@ -66,7 +66,7 @@ ReturnedStress to_cap(const Problem& t) {
 
 }  // namespace
 
-/// Which pair is asked follows from the return to the cone alone. It does not raise the mean stress: where it ends
+/// The pair to evaluate follows from the return to the cone alone. It does not raise the mean stress: where it ends
 /// beyond the cut-off the trial stress was beyond it, and one of {cut-off, corner} holds; where it ends beyond the cap
 /// one of {cap, corner} does, and the cut-off is far.
 ReturnedStress return_stress(const DruckerPragerParams& p, double mu, double bulk, const MeanAndShear& trial,

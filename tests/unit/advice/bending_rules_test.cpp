@@ -22,9 +22,9 @@ std::string advice_on(const std::array<int, 3>& cells, double size, const std::s
 
 TEST(Bending, OfABeamOrAPlateOneCellThickIsTooLittle) {
   EXPECT_THAT(advice_on({20, 1, 1}, 0.01),
-              AllOf(HasSubstr("bar is slender and about 1.4 elements thick"), HasSubstr("it bends by about 49 %"),
+              AllOf(HasSubstr("bar is slender and about 1.4 elements thick"), HasSubstr("its deflection is about 49 %"),
                     HasSubstr("a 4th of its thickness (2.4")));
-  EXPECT_THAT(advice_on({20, 20, 1}, 0.01), HasSubstr("it bends by about"));
+  EXPECT_THAT(advice_on({20, 20, 1}, 0.01), HasSubstr("its deflection is about"));
 }
 
 TEST(Bending, IsNoMatterWhereItIsResolvedOrNothingBends) {

@@ -73,7 +73,7 @@ TEST(ModelAdvice, TellsOfPlaneModelsWhereTheMeshIsOneThinLayerWhoseSidesAreFree)
     return advice_on(raster({1, 1, 1}, cells) + more);
   };
   const std::string words = "one layer of elements across ";
-  EXPECT_THAT(layer({6, 6, 1}, ""), AllOf(HasSubstr(words + "z"), HasSubstr("[plane] kind = \"stress\" takes")));
+  EXPECT_THAT(layer({6, 6, 1}, ""), AllOf(HasSubstr(words + "z"), HasSubstr("[plane] kind = \"stress\" excludes")));
   EXPECT_THAT(layer({6, 1, 6}, ""), AllOf(HasSubstr(words + "y"), HasSubstr("axis = \"y\"")));
   for (const std::array<int, 3>& cells : {std::array{12, 12, 2}, {4, 4, 1}, {6, 1, 1}})
     EXPECT_EQ(layer(cells, ""), "") << testing::PrintToString(cells);
@@ -92,7 +92,7 @@ TEST(ModelAdvice, NamesASphereThatDoesNotHoldTheModelAndTheRadiusThatWould) {
     return "[sphere]\ncentre = [\"5 mm\", \"5 mm\", \"5 mm\"]\nradius = \"" + radius + "\"\npenalty = \"40 GPa\"\n";
   };
   EXPECT_THAT(advice_on(raster({1, 1, 1}) + sphere("8 mm")),
-              AllOf(HasSubstr("sphere does not hold the model"), HasSubstr("0.00866 m")));
+              AllOf(HasSubstr("sphere does not enclose the model"), HasSubstr("0.00866 m")));
   EXPECT_EQ(advice_on(raster({1, 1, 1}) + sphere("9 mm")), "");
 }
 

@@ -80,10 +80,10 @@ TEST(Plausibility, OfAStageThatDoesNotRepeatTheSupportsOrTheGravityIsDoubted) {
 
 TEST(Plausibility, OfGravityOnABaseThatAbsorbsFromTheStartIsDoubted) {
   std::string text = kBrick.substr(0, kBrick.find("[[stage.constraint]]"));
-  EXPECT_THAT(advice_on({}, text + "absorbing = [\"raster.z0\"]\n"), HasSubstr("sinks at a steady speed"));
+  EXPECT_THAT(advice_on({}, text + "absorbing = [\"raster.z0\"]\n"), HasSubstr("sink at a steady speed"));
   EXPECT_EQ(advice_on({}, text), "");
   text += "absorbing = [\"raster.z0\"]\n[[stage.constraint]]\ngroup = \"raster\"\nfixed = ";
-  EXPECT_THAT(advice_on({}, text + "\"xy\"\n"), HasSubstr("sinks at a steady speed"));
+  EXPECT_THAT(advice_on({}, text + "\"xy\"\n"), HasSubstr("sink at a steady speed"));
   EXPECT_EQ(advice_on({}, text + "\"z\"\n"), "");
 }
 

@@ -91,7 +91,7 @@ TEST(SuddenMotions, AreNamedWithTheirWaveBesideTheStrengthAndARamp) {
   // rho c v = 14.3 MPa s/m times 10 mm/s.
   const std::string advice = driven("velocity = { z = -0.01 }");
   EXPECT_THAT(advice, AllOf(HasSubstr("stage[0].constraint[1] (velocity, \"raster.z1\", line "),
-                            HasSubstr("a jump in speed of 10 mm/s"), HasSubstr("rho c v of about 143 kPa, is 14 % of"),
+                            HasSubstr("a jump in speed of 10 mm/s"), HasSubstr("rho c v of about 143 kPa is 14 % of"),
                             HasSubstr("joints of raster"), HasSubstr("ramp = { end = ..., to = -0.01 }")));
   EXPECT_THAT(driven("displacement = { z = { table = [[0, 0], [\"1 ms\", \"10 um\"]] } }"),
               AllOf(HasSubstr("(displacement, \"raster.z1\""), HasSubstr("of 10 mm/s")));
@@ -156,7 +156,7 @@ TEST(Reactions, OfWhatIsDrivenUnderLocalDampingAreNamed) {
   };
   const std::string damping = "local_damping = 0.3\n", motion = "velocity = { z = 0.01 }\n";
   EXPECT_THAT(recorded(damping, motion, "raster.z1"),
-              AllOf(HasSubstr("Stage 0 has a local_damping of 0.3"), HasSubstr("takes 1.43 times its force")));
+              AllOf(HasSubstr("Stage 0 has a local_damping of 0.3"), HasSubstr("requires 1.43 times the force")));
   EXPECT_THAT(recorded(damping, motion, "raster.z0"), HasSubstr("reactions"));
   EXPECT_EQ(recorded(damping, motion, "raster.x0"), "");
   EXPECT_EQ(recorded(damping, "fixed = \"z\"\n", "raster.z1"), "");

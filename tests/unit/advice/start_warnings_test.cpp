@@ -42,7 +42,7 @@ TEST(Unmeant, IsASphereAroundNothing) {
   const auto sphere = [](const std::string& radius) {
     return advice_on("[sphere]\nradius = \"" + radius + "\"\npenalty = 1e9\n");
   };
-  EXPECT_THAT(sphere("1 mm"), AllOf(HasSubstr("The sphere is around nothing"), HasSubstr("more than 0.02532 m")));
+  EXPECT_THAT(sphere("1 mm"), AllOf(HasSubstr("The sphere encloses nothing"), HasSubstr("more than 0.02532 m")));
   EXPECT_EQ(sphere("20 mm"), "") << "it holds a part: small_sphere reports it";
 }
 
@@ -63,7 +63,7 @@ TEST(Unmeant, IsAPenaltyThatIsLoweredForItsPlateau) {
 
 TEST(Unmeant, IsAPenaltyTooSoftToStopWhatComesWithinAnElement) {
   EXPECT_THAT(advice_on(kFlying, {"contact[0].penalty=1 kPa"}),
-              AllOf(HasSubstr("penalty of 1 kPa between \"rock\" and \"rock\" is too soft for 10 m/s"),
+              AllOf(HasSubstr("penalty of 1 kPa between \"rock\" and \"rock\" is too low for 10 m/s"),
                     HasSubstr("more than an element")));
   EXPECT_EQ(advice_on(kFlying), "");
   EXPECT_EQ(advice_on("", {"contact[0].penalty=1 kPa"}), "") << "nothing moves";

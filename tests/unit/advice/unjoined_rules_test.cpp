@@ -41,12 +41,13 @@ std::string touching(const std::string& join, const std::string& glue,
 TEST(UnjoinedVolumes, NamesVolumesOfOneGroupThatTouchAndAreNotJoined) {
   EXPECT_THAT(touching("Coherence;", "false"),
               AllOf(HasSubstr("Volumes of \"rock\" touch along"), HasSubstr("bodies 0 and 1"),
-                    HasSubstr("mesh.glue = true"), HasSubstr("contact alone keeps them apart")));
+                    HasSubstr("mesh.glue = true"), HasSubstr("they interact by contact alone")));
   EXPECT_EQ(touching("Coherence;", "true"), "");
 }
 
 TEST(UnjoinedVolumes, TellsThatNothingKeepsVolumesApartThatTouchWithoutContact) {
-  EXPECT_THAT(touching("Coherence;", "false", ""), HasSubstr("nothing keeps them apart: that takes a [[contact]]"));
+  EXPECT_THAT(touching("Coherence;", "false", ""),
+              HasSubstr("they pass through each other, unless there is a [[contact]]"));
 }
 
 TEST(UnjoinedVolumes, NamesAnInterfaceThatIsThereTwice) {

@@ -63,8 +63,9 @@ TEST(Groups, AConstraintOnANameOfAVolumeAndASurfaceIsRefusedAsNotClear) {
   both.push_back("glass");
   const Case c = read_text(replaced(complete, "gauges = [\"support\"]", "gauges = [\"glass\"]"));
   EXPECT_TRUE(check_groups(c, {volumes, surfaces}).empty());
-  EXPECT_THAT(text(check_groups(c, {volumes, both})),
-              HasSubstr("output.gauges: a volume group and a surface group of the mesh have this name"));
+  EXPECT_THAT(
+      text(check_groups(c, {volumes, both})),
+      HasSubstr("output.gauges: this name is ambiguous: a volume group and a surface group of the mesh have it"));
 }
 
 TEST(Groups, AVolumeNamedAsEveryGroupIsRefused) {
@@ -85,7 +86,7 @@ TEST(Groups, AGaugeOnANameOfAGroupAndABodyIsRefusedAsNotClear) {
   EXPECT_TRUE(check_groups(c, {volumes, surfaces}, 2).empty());
   EXPECT_TRUE(check_groups(c, {volumes, with_body}, 1).empty()) << "there is no such body";
   EXPECT_THAT(text(check_groups(c, {volumes, with_body}, 2)),
-              HasSubstr("output.gauges: a group of the mesh has the name by which a gauge calls a body"));
+              HasSubstr("output.gauges: this name is ambiguous: a group of the mesh and a body have it"));
 }
 
 TEST(Groups, ConstraintsAndGaugesTakeCurvesAndPoints) {
@@ -100,7 +101,7 @@ TEST(Groups, ACurveWhereASurfaceIsAskedForIsRefused) {
   EXPECT_THAT(
       text(check_groups(read_text(complete), {volumes, without(surfaces, "slit"), nodes})),
       HasSubstr(
-          "stage[0].pressure[0].surface: this is a curve or point of the mesh, where a surface group is asked for; "
+          "stage[0].pressure[0].surface: this is a curve or point of the mesh, where a surface group is required; "
           "allowed: "));
 }
 

@@ -53,7 +53,7 @@ TEST(Displacement, ThatNoRunCanComputeIsRefused) {
   for (const char* far : {"{ linear = \"1e200 m/s\" }", "{ table = [[0, 0], [\"1 ms\", -2e10]] }",
                           "{ sine = { amplitude = 2e10, frequency = 3 } }"}) {
     EXPECT_THAT(message_of(pulled(far, "0")),
-                AllOf(HasSubstr("stage[0].constraint[0].displacement: is beyond what can be computed"),
+                AllOf(HasSubstr("stage[0].constraint[0].displacement: is too large to be computed"),
                       HasSubstr("magnitudes up to 1e+10 m")));
   }
 }

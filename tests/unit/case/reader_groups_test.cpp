@@ -156,8 +156,8 @@ TEST(ReaderGroups, WhatIsWrongInAnEntryOfSeveralGroupsIsSaidOnce) {
   for (const auto& [from, to, says] : std::vector<std::array<std::string, 3>>{
            {"[\"soft\", \"hard\"]", "[]",
             "case.toml:5: material[0].group: is an empty list; allowed: text, or a list of texts"},
-           {"[\"soft\", \"hard\"]", "[\"soft\", 7]", "material[0].group: is a list with what is no name"},
-           {"[\"soft\", \"hard\"]", "[\"soft\", \"\"]", "material[0].group: is a list with what is no name"},
+           {"[\"soft\", \"hard\"]", "[\"soft\", 7]", "material[0].group: is a list with entries that are no names"},
+           {"[\"soft\", \"hard\"]", "[\"soft\", \"\"]", "material[0].group: is a list with entries that are no names"},
            {"[\"soft\", \"hard\"]", "[\"soft\", \"soft\"]", "material[0].group: the group has a material already"},
            {"\"10 GPa\"", "\"10 GN\"", "case.toml:6: material[0].young: "},
            {"poisson = 0.2", "poisson = 0.7", "case.toml:7: material[0].poisson: is out of range"},

@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"fields_of_a_picture",
               "name = \"fractures\"",
               "name = \"stress\"",
-              {"insitu.pipeline[0].fields: pictures are handed the fields that they need; allowed: no fields"}},
+              {"insitu.pipeline[0].fields: pictures select their fields themselves; allowed: no fields"}},
         Wrong{"fields_of_the_history",
               "name = \"fractures\"",
               "name = \"history\"",

@@ -62,7 +62,7 @@ TEST_F(MotionLimit, RefusesMuchMoreThanInTheStepBefore) {
   EXPECT_EQ(error_of(2), "");
   const std::string error = error_of(1);
   EXPECT_EQ(error.find("step 5: "), 0u) << error;
-  EXPECT_NE(error.find("found too late"), std::string::npos) << error;
+  EXPECT_NE(error.find("detected with a delay"), std::string::npos) << error;
 }
 
 TEST_F(MotionLimit, NamesTheFastestNode) {

@@ -272,7 +272,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScript{
             "MeshesThatDifferEachTime",
             "SetFactory(\"OpenCASCADE\");\nBox(1) = {0,0,0,1,1,1};\nMesh.Algorithm3D = 10;\n",
-            "model.geo: Mesh.Algorithm3D: asks for HXT, which makes another mesh each time; allowed: 1 (Delaunay)"},
+            "model.geo: Mesh.Algorithm3D: selects HXT, which makes another mesh each time; allowed: 1 (Delaunay)"},
         BadScript{"Hexahedra",
                   "SetFactory(\"OpenCASCADE\");\nBox(3) = {0,0,0,1,1,1};\nTransfinite Curve{:} = 2;\n"
                   "Transfinite Surface{:};\nRecombine Surface{:};\nTransfinite Volume{:};\n",

@@ -200,7 +200,7 @@ TEST(AskingARun, ThatHasEndedSaysSo) {
 TEST(AskingARun, ThatDoesNotAnswerTakesTheCommandBack) {
   const TemporaryFolder folder;
   write(folder / "status.jsonl", "{\"state\":\"running\"}\n");
-  EXPECT_THAT(complaint_of(folder.path(), 0.1), HasSubstr("does not answer"));
+  EXPECT_THAT(complaint_of(folder.path(), 0.1), HasSubstr("does not respond"));
   EXPECT_FALSE(std::filesystem::exists(folder / "control"));
 }
 

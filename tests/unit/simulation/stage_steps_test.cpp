@@ -37,7 +37,7 @@ class StageStepsOfCubes : public testing::Test {
   /// Until the stable step is looked at.
   void look() {
     steps_.look();
-    while (steps_.looks().since > 0) steps_.look();
+    while (steps_.schedule().since > 0) steps_.look();
   }
 
   /// Looks, at most so many, until the step has grown. @return  how many

@@ -100,8 +100,8 @@ TEST(Friction, FollowsANormalForceAtOnceWhereAnOverlapBeginsAndLaterWithADelay) 
     follow_normal_force(force, kStep, kLongest, delayed);
     EXPECT_EQ(delayed.force, force);
   }
-  for (double age = 0; age < 2 * kSettledAge * kLongest; age += kStep) follow_normal_force(5, kStep, kLongest, delayed);
-  EXPECT_EQ(delayed.age, kSettledAge * kLongest) << "no older than what counts";
+  for (double age = 0; age < 2 * kSteadyAge * kLongest; age += kStep) follow_normal_force(5, kStep, kLongest, delayed);
+  EXPECT_EQ(delayed.age, kSteadyAge * kLongest) << "no older than what counts";
   EXPECT_NEAR(delayed.force, 5, 1e-3);
   const double before = delayed.force;
   follow_normal_force(9, kStep, kLongest, delayed);
@@ -111,7 +111,7 @@ TEST(Friction, FollowsANormalForceAtOnceWhereAnOverlapBeginsAndLaterWithADelay) 
 TEST(Friction, OfAnOldOverlapFollowsTheMeanOfANormalForceThatVibrates) {
   constexpr double kStep = 0.1, kLongest = 0.4;  // s
   constexpr int kPeriods = 400, kSteps = 8;
-  DelayedForce delayed{9, kSettledAge * kLongest, 9};
+  DelayedForce delayed{9, kSteadyAge * kLongest, 9};
   double mean = 0;
   for (int i = 0; i < kPeriods * kSteps; ++i) {
     follow_normal_force(9 + 6 * std::sin(2 * std::acos(-1.0) * i / kSteps), kStep, kLongest, delayed);
@@ -126,7 +126,7 @@ TEST(Friction, HardlyFeedsVibrations) {
   constexpr double kLongest = 1, kOmega = 12;  // s, 1/s
   constexpr int kPeriods = 50, kSteps = 1000;
   const double step = 2 * std::acos(-1.0) / (kOmega * kSteps);
-  DelayedForce delayed{9, kSettledAge * kLongest, 9};
+  DelayedForce delayed{9, kSteadyAge * kLongest, 9};
   double behind = 0;  // part of its vibration that is a quarter of a period behind that of the normal force
   for (int i = 1; i <= kPeriods * kSteps; ++i) {
     const double phase = kOmega * step * i;
