@@ -220,7 +220,8 @@ class Runner {
   void look_at_checkpoints() {
     if (!checkpoints_) return;
     checkpoints_->look();
-    if (checkpoints_->due()) begin_checkpoint();
+    const bool due = checkpoints_->due();
+    if (due && !partition_.state().signals.received.stop) begin_checkpoint();  // else it is written at the end
   }
 
   /// When a run ends with an error: the last sound state. A checkpoint that cannot be written is not what is told then.

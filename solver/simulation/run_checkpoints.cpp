@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "domains/model_fields.hpp"
 #include "domains/piece_mesh.hpp"
+#include "output/folder/run_lock.hpp"
 #include "system/atomic_file.hpp"
 #include "system/regular_file.hpp"
 
@@ -67,6 +68,8 @@ void RunCheckpoints::attempt(Work&& work) {
 void RunCheckpoints::begin(RunPosition position) {
   if (input_.checkpoint.keep == 0) return;
   const auto started = Wall::now();
+  const bool urgent = partition_.state().signals.received.stop;  // whoever asked for the end may kill the run
+  std::unique_ptr<CheckpointWriter> earlier = urgent ? std::move(writer_) : nullptr;
   if (writer_) complete(started);
   last_ = Wall::now();
   begun_at_ = partition_.state().clock.steps;
@@ -80,9 +83,22 @@ void RunCheckpoints::begin(RunPosition position) {
     std::vector<std::filesystem::path> companions;
     if (communicator.is_root()) companions = {folder_.history(), folder_.status()};
     writer_ = std::make_unique<CheckpointWriter>(checkpoint_file(folder_.checkpoints(), begun_at_), std::move(now),
-                                                 communicator, std::move(companions));
+                                                 communicator, std::move(companions),
+                                                 urgent ? std::optional(survival()) : std::nullopt);
   });
   pause_ = seconds_since(last_);
+  if (!earlier) return;
+  try {  // the state that counts is safe now
+    earlier->finish();
+    ++report_.written;
+  } catch (const OutputError&) {
+    ++report_.failed;
+  }
+}
+
+Survival RunCheckpoints::survival() const {
+  if (!partition_.communicator().is_root()) return {};
+  return {folder_.status(), folder_.lock ? folder_.lock->descriptor() : -1};
 }
 
 Checkpoint RunCheckpoints::content(const RunPosition& position) const {

@@ -35,7 +35,8 @@ class RunCheckpoints {
   void add_signals(StepSignals& signals);
   /// To be asked after every step; moves on. The same on all ranks.
   [[nodiscard]] bool due();
-  /// Begins one of the present state, between two steps. Collective. @param position  but for what is known here
+  /// Begins one of the present state, between two steps. Collective. Where a signal has asked for the end of the run, it
+  /// survives the run (Survival), for mpiexec kills its ranks a second later. @param position  but for what is known here
   void begin(RunPosition position);
   /// After every step: lets one appear that all ranks have written. Collective when there is one.
   void look();
@@ -54,6 +55,7 @@ class RunCheckpoints {
 
  private:
   [[nodiscard]] Checkpoint content(const RunPosition& position) const;
+  [[nodiscard]] Survival survival() const;
   void complete(std::optional<std::chrono::steady_clock::time_point> waiting);
   template <class Work>
   void attempt(Work&& work);

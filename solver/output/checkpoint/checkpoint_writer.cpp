@@ -39,17 +39,19 @@ std::vector<std::uint64_t> numbers_of(const std::vector<std::byte>& bytes) {
 }  // namespace
 
 CheckpointWriter::CheckpointWriter(std::filesystem::path file, Checkpoint content, const Communicator& communicator,
-                                   std::vector<std::filesystem::path> companions)
+                                   std::vector<std::filesystem::path> companions, std::optional<Survival> survival)
     : file_(std::move(file)),
       content_(std::move(content)),
       communicator_(communicator),
       companions_(std::move(companions)),
-      columns_(checkpoint_columns(content_)) {
+      columns_(checkpoint_columns(content_)),
+      survives_(survival.has_value()) {
   communicator_.set_phase("checkpoint");
   try {
     lay_out();
     sums_.resize(columns_.size());
-    begin_writing();
+    if (survival) begin_process(*survival);
+    if (!process_) begin_writing();
   } catch (...) {
     remove_unfinished();  // what a full disk has taken of every checkpoint that failed would fill it for good
     throw;
@@ -58,7 +60,7 @@ CheckpointWriter::CheckpointWriter(std::filesystem::path file, Checkpoint conten
 
 CheckpointWriter::~CheckpointWriter() {
   if (thread_.joinable()) thread_.join();
-  if (!published_) remove_unfinished();
+  if (!published_ && !process_) remove_unfinished();
 }
 
 /// Where no thread is to be had (a limit of processes or of memory) the steps wait for the whole of it.
@@ -126,6 +128,7 @@ void CheckpointWriter::lay_out() {
   });
   communicator_.broadcast(places);
   const std::vector<std::uint64_t> offsets = numbers_of(places);
+  index_place_.offset = offsets.back();
   std::size_t next = 0;
   for (IndexedColumn& column : index_.columns) {
     if (!column.zero) column.offset = offsets.at(next++);
@@ -155,7 +158,10 @@ void CheckpointWriter::write_part() {
 }
 
 void CheckpointWriter::gather_checksums() {
-  const auto of_ranks = communicator_.all_gather(std::span<const std::uint64_t>(sums_));
+  set_checksums(communicator_.all_gather(std::span<const std::uint64_t>(sums_)));
+}
+
+void CheckpointWriter::set_checksums(const std::vector<std::vector<std::uint64_t>>& of_ranks) {
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     IndexedColumn& column = index_.columns[c];
     for (std::size_t r = 0; r < of_ranks.size(); ++r)
@@ -182,6 +188,7 @@ void CheckpointWriter::publish() {
 void CheckpointWriter::finish() {
   if (thread_.joinable()) thread_.join();
   communicator_.set_phase("end of a checkpoint");
+  if (survives_ && finish_process()) return;
   communicator_.agree([&] {
     if (failure_) throw OutputError(*failure_);
   });
