@@ -133,6 +133,10 @@ Snapshot Partition::snapshot() {
 
 Snapshot Partition::copy() const {
   domain_->exchange.agree_on_failure();
+  return copy_of_rank();
+}
+
+Snapshot Partition::copy_of_rank() const {
   Snapshot now = opened();
   now.state = {closed_fields(*domain_), domain_->timer, domain_->sample};
   return now;

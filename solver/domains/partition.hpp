@@ -63,6 +63,8 @@ class Partition {
   /// The same in the middle of a run, which goes on. What ranks ask of each other is not in it. Collective, so that the
   /// failure of a rank is received: then throws SimulationError on all. @pre a stage has begun
   [[nodiscard]] Snapshot copy() const;
+  /// The same of this rank alone, where none has failed. Without MPI.
+  [[nodiscard]] Snapshot copy_of_rank() const;
   /// Stable step of the whole model at present under the constraints of the stage. Collective.
   /// @param steps  of it until the next call
   [[nodiscard]] StableStep stable_step(double steps) const;

@@ -160,10 +160,12 @@ class Runner {
       const bool last = end || stop_commanded_ || output_.steps_done() + 1 == input_.time.max_steps ||
                         clock().time + clock().dt > options_.until - 0.5 * clock().dt;
       advance(end, last);
-      look_at_checkpoints();
       status_ = status_now();
+      look_at_checkpoints();
     }
-    if (checkpoints_ && !checkpoints_->is_of_now()) checkpoints_->begin(position());
+    const bool last_stage = s + 1 == input_.stages.size();
+    if (checkpoints_ && !checkpoints_->is_of_now())
+      checkpoints_->begin(position(), last_stage || status_ != "complete");
     steps_ = nullptr;
     // Behind the checkpoint: a run that goes on from it does not have this line.
     if (status_ != "complete" && sampled_without_line_) take_line(*sampled_without_line_);
@@ -221,7 +223,7 @@ class Runner {
     if (!checkpoints_) return;
     checkpoints_->look();
     const bool due = checkpoints_->due();
-    if (due && !partition_.state().signals.received.stop) begin_checkpoint();  // else it is written at the end
+    if (due && status_ == "complete") begin_checkpoint();  // else it is the last one
   }
 
   /// When a run ends with an error: the last sound state. A checkpoint that cannot be written is not what is told then.
