@@ -74,6 +74,7 @@ class Partition {
   [[nodiscard]] double step_length(const case_::Stage& stage, double steps) const;
 
  private:
+  void give_up_start() const;
   void start_alone();
   void start_divided();
   void relax_overlaps();
