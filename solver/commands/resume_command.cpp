@@ -68,6 +68,9 @@ void check_overrides(const std::vector<std::string>& overrides) {
   if (files.empty() && !checkpoints_in(run).empty())
     throw refused(run.string(), "this is the folder of a run's checkpoints, not of the run",
                   "the folder of the run, or " + checkpoints_in(run).front().file.string());
+  if (const std::string holder = files.empty() ? holder_of(run) : ""; !holder.empty())
+    throw refused(run.string(), "another run writes here: " + holder + ", and there is no checkpoint yet",
+                  "this folder when there is one");
   if (files.empty())
     throw refused(run.string(), "there are no checkpoints of a run here",
                   "the folder of a run with checkpoints/step_*.h5, or one of these files");

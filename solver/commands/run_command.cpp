@@ -102,10 +102,12 @@ int run_command(const RunCommand& asked, const Communicator& world) {
       if (announce) std::cerr << "breccia: starting from " << printable(words_of(*start)) << '\n';
     } else {
       refuse_initial_overlaps(input, *model);
+      give_up_if_interrupted();
       refuse_contradictions(input, *model);
       refuse_what_cannot_break(input, joints_on(*model, surfaces_to_break(input)));
       print_warnings(model->mesh_report.notes);
       print_warnings(start_warnings(input, *model));
+      give_up_if_interrupted();
     }
     folder = prepare_run_folder(root, input.resolved, provenance_of(asked, input, start, world),
                                 asked.overwrite ? OldResults::overwrite : OldResults::refuse);

@@ -13,6 +13,7 @@
 #include "model/parameters.hpp"
 #include "model/surfaces_to_break.hpp"
 #include "parallel/totals.hpp"
+#include "system/interruption.hpp"
 
 namespace breccia {
 namespace {
@@ -31,10 +32,19 @@ Partition::Partition(const case_::Case& input, const Communicator& communicator,
   }
 }
 
+/// Where the end was asked for before the first step. Collective.
+void Partition::give_up_start() const {
+  communicator_.agree([] { give_up_if_interrupted("interrupted before the first step"); });
+}
+
 void Partition::start_alone() {
+  give_up_start();
   domain_ = std::make_unique<Domain>(*model_, search_params(input_, *model_));
+  give_up_start();
   for (const InitialVelocity& initial : initial_velocities(input_, *model_)) add_velocity(*domain_, initial);
+  give_up_start();
   time_step_ = std::make_unique<TimeStep>(*model_);
+  give_up_start();
   model_->whole.step_ratio = time_step_->ratio();
   if (domain_->contact) model_->whole.contactor_size = domain_->contact->searches().contactor_size();
   relax_overlaps();
@@ -57,14 +67,17 @@ void Partition::start_divided() {
     model_->whole.contactor_size = contactors.size;
     packed = pack(model_->whole);
   }
+  give_up_start();
   communicator_.broadcast(packed);
   WholeModel whole = unpack_whole(packed);
   Records mine = spread(communicator_, model_.get(), contactors);
   model_.reset();
   contactors = {};
+  give_up_start();
   const std::vector<Discretisation> kinds = discretisations(input_, whole.volume_groups);
   const std::vector<double> weight = Balance::weights_at_rest(mine, kinds);
   decompose_anew(std::move(whole), std::move(mine), weight, {});
+  give_up_start();
   start_piece();
 }
 
@@ -77,6 +90,7 @@ void Partition::start_piece() {
   NodalState& nodes = state.nodes;
   domain_->exchange.begin_gather(nodes.position, nodes.velocity);
   domain_->exchange.finish_gather();
+  give_up_start();
   relax_overlaps();
   model_->whole.step_ratio = time_step_->ratio();
   motion_ = first_motion();
@@ -133,6 +147,10 @@ Snapshot Partition::snapshot() {
 
 Snapshot Partition::copy() const {
   domain_->exchange.agree_on_failure();
+  return copy_of_rank();
+}
+
+Snapshot Partition::copy_of_rank() const {
   Snapshot now = opened();
   now.state = {closed_fields(*domain_), domain_->timer, domain_->sample};
   return now;

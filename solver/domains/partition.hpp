@@ -63,6 +63,8 @@ class Partition {
   /// The same during a run, which continues. Pending requests between ranks are not included. Collective, so that the
   /// failure of a rank is received: then throws SimulationError on all. @pre a stage has begun
   [[nodiscard]] Snapshot copy() const;
+  /// The same of this rank alone, where none has failed. Without MPI.
+  [[nodiscard]] Snapshot copy_of_rank() const;
   /// Stable step of the whole model at present under the constraints of the stage. Collective.
   /// @param steps  of it until the next call
   [[nodiscard]] StableStep stable_step(double steps) const;
@@ -72,6 +74,7 @@ class Partition {
   [[nodiscard]] double step_length(const case_::Stage& stage, double steps) const;
 
  private:
+  void give_up_start() const;
   void start_alone();
   void start_divided();
   void relax_overlaps();

@@ -12,6 +12,7 @@
 #include "mesh/geometry.hpp"
 #include "mesh/node_parting.hpp"
 #include "mesh/space_curve.hpp"
+#include "system/interruption.hpp"
 
 namespace breccia {
 namespace {
@@ -299,14 +300,19 @@ FinishedMesh finish_mesh(Mesh raw, const FinishOptions& options) {
   report.orphan_nodes = count_orphan_nodes(mesh);
   if (options.merge_nodes > 0) report.merged_nodes = merge_nodes(mesh, options.merge_nodes, options.glue);
   report.inverted_repaired = orient(mesh, options.repair_inverted);
+  give_up_if_interrupted();
   report.duplicate_nodes = count_duplicate_nodes(mesh);
+  give_up_if_interrupted();
   demand_surfaces_are_faces(mesh);
   if (!options.glue) report.split_nodes = part_bodies(mesh);
+  give_up_if_interrupted();
   sort_elements(mesh);
+  give_up_if_interrupted();
   sort_nodes(mesh);
   sort_surface_faces(mesh);
   sort_group_nodes(mesh);
   drop_empty_groups(mesh, report);
+  give_up_if_interrupted();
   mesh.element_volume = mesh.element_body;
   number_bodies(build_topology(mesh), {}, mesh);
   count(mesh, report);

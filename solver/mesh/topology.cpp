@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/index.hpp"
 #include "mesh/node_parting.hpp"
+#include "system/interruption.hpp"
 
 namespace breccia {
 namespace {
@@ -133,6 +134,7 @@ Topology build_topology(const Mesh& mesh) {
   Topology topology;
   topology.links.resize(mesh.elements.size());
   const FaceTable table(mesh);
+  give_up_if_interrupted();
 
   std::vector<Problem> problems;
   std::set<std::pair<Index, Index>> reported;  // two elements on the same four nodes share four faces: one line

@@ -18,6 +18,7 @@
 #include "model/parameters.hpp"
 #include "model/surfaces_to_break.hpp"
 #include "model/torn_faces.hpp"
+#include "system/interruption.hpp"
 
 namespace breccia {
 namespace {
@@ -92,9 +93,8 @@ class SurfaceCorners {
     for (const auto& [element, face] : faces_of(cut, mesh, topology))
       cut_[at(element)] |= static_cast<std::uint8_t>(1U << face);
   }
-  /// Tags of a surface group, ascending elements. O(elements).
+  /// Tags of a surface group. O(elements at the surface), however many there are in all.
   void append_tags(Index group, std::vector<CornerTag>& tags) {
-    std::fill(corners_.begin(), corners_.end(), std::uint8_t{0});
     for (const Topology::Face& face : topology_.surface_groups[at(group)]) {
       for (const int corner : kFaceCorners[at(face.face)]) mark(face.element, corner);
     }
@@ -103,15 +103,15 @@ class SurfaceCorners {
       open_.pop_back();
       spread(element, corner);
     }
-    for (Index e = 0; e < mesh_.num_elements(); ++e) {
-      if (corners_[at(e)] != 0) tags.push_back({mesh_.element_id(e), group, corners_[at(e)]});
-    }
+    for (const Index e : marked_) tags.push_back({mesh_.element_id(e), group, std::exchange(corners_[at(e)], {})});
+    marked_.clear();
   }
 
  private:
   void mark(Index element, int corner) {
     const auto bit = static_cast<std::uint8_t>(1U << corner);
     if ((corners_[at(element)] & bit) != 0) return;
+    if (corners_[at(element)] == 0) marked_.push_back(element);
     corners_[at(element)] |= bit;
     open_.emplace_back(element, corner);
   }
@@ -129,7 +129,8 @@ class SurfaceCorners {
   const Mesh& mesh_;
   const Topology& topology_;
   std::vector<std::uint8_t> cut_;      ///< (elements) a bit a face that a stage breaks
-  std::vector<std::uint8_t> corners_;  ///< (elements) a bit a corner
+  std::vector<std::uint8_t> corners_;  ///< (elements) a bit a corner, of the present group
+  std::vector<Index> marked_;          ///< elements with such a bit
   std::vector<std::pair<Index, int>> open_;
 };
 
@@ -202,17 +203,24 @@ Model build_bare_model(const case_::Case& input) {
   FinishedMesh made = build_mesh(input);
   model.mesh = std::move(made.mesh);
   model.mesh_report = std::move(made.report);
+  give_up_if_interrupted();
   model.topology = build_topology(model.mesh);
+  give_up_if_interrupted();
   check_layer(input, model.mesh, model.topology);
   take_materials(input, model);
+  give_up_if_interrupted();
   take_whole(input, model);
+  give_up_if_interrupted();
   take_contact(input, model);
   break_initial(input, model);
   model.whole.cut = surfaces_to_break(input);
   model.corner_tags = tag_corners(model.whole.cut, model.mesh, model.topology);
+  give_up_if_interrupted();
   model.whole.group_sizes = group_sizes(model);
   model.torn = torn_faces(model.mesh, model.topology);
+  give_up_if_interrupted();
   find_joint_groups(input, model);
+  give_up_if_interrupted();
   take_joint_laws(input, model);
   return model;
 }
@@ -220,7 +228,9 @@ Model build_bare_model(const case_::Case& input) {
 Model build_model(const case_::Case& input) {
   Model model = build_bare_model(input);
   demand_memory(input, model.mesh.num_elements(), model_bytes(model));
+  give_up_if_interrupted();
   take_joints(input, model);
+  give_up_if_interrupted();
   model.local = build_local_mesh(model.mesh, model.discretisation, model.density, {}, model.whole.node_sets);
   return model;
 }

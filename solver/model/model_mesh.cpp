@@ -8,6 +8,7 @@
 #include "mesh/raster.hpp"
 #include "model/memory_demand.hpp"
 #include "model/model.hpp"
+#include "system/interruption.hpp"
 
 namespace breccia {
 namespace {
@@ -58,6 +59,7 @@ FinishedMesh raster_of(const case_::Case& input) {
   try {
     return make_raster(raster_source(*input.mesh.raster));
   } catch (const InputError& error) {
+    give_up_if_interrupted();  // then it is no fault of the case
     std::vector<Problem> problems = error.problems();
     for (Problem& p : problems) {
       p.file = input.file.string();

@@ -21,6 +21,7 @@
 #include "simulation/sound_state.hpp"
 #include "simulation/stage_steps.hpp"
 #include "simulation/step.hpp"
+#include "system/interruption.hpp"
 
 namespace breccia {
 
@@ -64,6 +65,7 @@ class Runner {
                              std::to_string(communicator_.size()) + " rank" + (communicator_.size() == 1 ? "" : "s"),
                          true);
     if (!start_words_.empty()) output_.tell_event("start", start_words_, true);
+    give_up_start();
     try {
       for (auto s = first_stage(); s < input_.stages.size() && status_ == "complete"; ++s) run_stage(s);
       if (checkpoints_) end_with_checkpoint();
@@ -131,6 +133,11 @@ class Runner {
     return snapshot;
   }
 
+  /// A run that has done nothing has nothing to lose.
+  void give_up_start() const {
+    communicator_.agree([] { give_up_if_interrupted("interrupted before the first step"); });
+  }
+
   [[nodiscard]] std::size_t first_stage() const { return from_ ? static_cast<std::size_t>(from_->stage) : 0; }
 
   /// As written in the checkpoint, or at its start.
@@ -155,15 +162,18 @@ class Runner {
       take_commands();
       steps.look();
       tell_of_step(steps);
-      look_at_state();  // a script may request the end: this step is the last one then
+      look_at_state();                                 // a script may request the end: this step is the last one then
+      if (output_.steps_done() == 0) give_up_start();  // it may take long to write the first frame
       const bool end = s + 1 == input_.stages.size() && steps.at_last();
       const bool last = end || stop_commanded_ || output_.steps_done() + 1 == input_.time.max_steps ||
                         clock().time + clock().dt > options_.until - 0.5 * clock().dt;
       advance(end, last);
-      look_at_checkpoints();
       status_ = status_now();
+      look_at_checkpoints();
     }
-    if (checkpoints_ && !checkpoints_->is_of_now()) checkpoints_->begin(position());
+    const bool last_stage = s + 1 == input_.stages.size();
+    if (checkpoints_ && !checkpoints_->is_of_now())
+      checkpoints_->begin(position(), last_stage || status_ != "complete");
     steps_ = nullptr;
     // After the checkpoint: a run resumed from it does not have this line.
     if (status_ != "complete" && sampled_without_line_) take_line(*sampled_without_line_);
@@ -220,7 +230,8 @@ class Runner {
   void look_at_checkpoints() {
     if (!checkpoints_) return;
     checkpoints_->look();
-    if (checkpoints_->due()) begin_checkpoint();
+    const bool due = checkpoints_->due();
+    if (due && status_ == "complete") begin_checkpoint();  // else it is the last one
   }
 
   /// When a run ends with an error: the last sound state. A failure to write it is not reported then.

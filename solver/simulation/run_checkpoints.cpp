@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "domains/model_fields.hpp"
 #include "domains/piece_mesh.hpp"
+#include "output/folder/run_lock.hpp"
 #include "system/atomic_file.hpp"
 #include "system/regular_file.hpp"
 
@@ -21,10 +22,10 @@ using Wall = std::chrono::steady_clock;
 
 double seconds_since(Wall::time_point start) { return std::chrono::duration<double>(Wall::now() - start).count(); }
 
-std::string report_text(const CheckpointWriter& writer, double pause) {
+std::string report_text(const std::filesystem::path& file, std::uint64_t bytes, double pause) {
   char text[96];
-  std::snprintf(text, sizeof text, ": %.1f MB, the steps waited %.3f s for it", 1e-6 * double(writer.bytes()), pause);
-  return "checkpoint " + writer.file().filename().string() + text;
+  std::snprintf(text, sizeof text, ": %.1f MB, the steps waited %.3f s for it", 1e-6 * double(bytes), pause);
+  return "checkpoint " + file.filename().string() + text;
 }
 
 }  // namespace
@@ -59,38 +60,69 @@ void RunCheckpoints::attempt(Work&& work) {
     work();
   } catch (const OutputError& error) {
     writer_.reset();
+    surviving_.reset();
     ++report_.failed;
     tell_(std::string("no checkpoint: ") + error.what(), false);
   }
 }
 
-void RunCheckpoints::begin(RunPosition position) {
+void RunCheckpoints::begin(RunPosition position, bool last) {
   if (input_.checkpoint.keep == 0) return;
   const auto started = Wall::now();
-  if (writer_) complete(started);
+  if (writer_ && !last) complete(started);  // the last one does not wait for it
   last_ = Wall::now();
   begun_at_ = partition_.state().clock.steps;
-  attempt([&] {
-    const Communicator& communicator = partition_.communicator();
-    communicator.agree([&] {
-      if (communicator.is_root()) create_folder(folder_.checkpoints());
-    });
-    position.checkpoints = times_.numbers();
-    Checkpoint now = content(position);
-    std::vector<std::filesystem::path> companions;
-    if (communicator.is_root()) companions = {folder_.history(), folder_.status()};
-    writer_ = std::make_unique<CheckpointWriter>(checkpoint_file(folder_.checkpoints(), begun_at_), std::move(now),
-                                                 communicator, std::move(companions));
-  });
+  position.checkpoints = times_.numbers();
+  position_ = position;
+  if (last) {
+    const std::unique_ptr<CheckpointWriter> earlier = std::move(writer_);
+    attempt([&] { begin_surviving(); });
+    if (earlier) complete_earlier(*earlier);
+  } else {
+    attempt([&] { begin_writer(); });
+  }
   pause_ = seconds_since(last_);
 }
 
-Checkpoint RunCheckpoints::content(const RunPosition& position) const {
+void RunCheckpoints::begin_writer() {
+  const Communicator& communicator = partition_.communicator();
+  create_checkpoint_folder();
   Snapshot now = partition_.copy();
+  State model = whole_fields(communicator, now.state.state);
+  writer_ =
+      std::make_unique<CheckpointWriter>(file(), content(std::move(now), std::move(model)), communicator, companions());
+}
+
+/// As little as possible comes before the copies are made: the kill may be near.
+void RunCheckpoints::begin_surviving() {
+  const Communicator& communicator = partition_.communicator();
+  create_checkpoint_folder();
+  partition_.domain().exchange.agree_on_failure();
+  const State model = whole_fields(communicator, closed_fields(partition_.domain()));
+  SurvivingCheckpoint::Place place{file(), folder_.status(), folder_.lock ? folder_.lock->descriptor() : -1,
+                                   companions()};
+  surviving_ = std::make_unique<SurvivingCheckpoint>(
+      std::move(place), model.clock, [&] { return content(partition_.copy_of_rank(), model); }, communicator);
+}
+
+void RunCheckpoints::create_checkpoint_folder() const {
+  partition_.communicator().agree([&] {
+    if (partition_.communicator().is_root()) create_folder(folder_.checkpoints());
+  });
+}
+
+std::filesystem::path RunCheckpoints::file() const { return checkpoint_file(folder_.checkpoints(), begun_at_); }
+
+std::vector<std::filesystem::path> RunCheckpoints::companions() const {
+  if (!partition_.communicator().is_root()) return {};
+  return {folder_.history(), folder_.status()};
+}
+
+Checkpoint RunCheckpoints::content(Snapshot now, State model) const {
   Checkpoint checkpoint;
-  checkpoint.model = whole_fields(partition_.communicator(), now.state.state);
+  checkpoint.model = std::move(model);
   checkpoint.mine = std::move(now.mine);
-  checkpoint.position = position;
+  checkpoint.position = position_;
   checkpoint.position.motion = now.motion;
   checkpoint.position.stage = static_cast<std::int64_t>(now.stage);
   checkpoint.position.worst_element = now.state.sample.worst_element;
@@ -102,6 +134,16 @@ Checkpoint RunCheckpoints::content(const RunPosition& position) const {
   return checkpoint;
 }
 
+/// That was still being written when the last one began, which is safe by now.
+void RunCheckpoints::complete_earlier(CheckpointWriter& earlier) {
+  try {
+    earlier.finish();
+    ++report_.written;
+  } catch (const OutputError&) {
+    ++report_.failed;
+  }
+}
+
 /// A rank that has written signals it at the end of a step; all receive that in the next.
 void RunCheckpoints::look() {
   const State& state = partition_.state();
@@ -109,25 +151,38 @@ void RunCheckpoints::look() {
 }
 
 void RunCheckpoints::finish(bool steps_wait) {
-  if (writer_) complete(steps_wait ? std::optional(Wall::now()) : std::nullopt);
+  if (writer_ || surviving_) complete(steps_wait ? std::optional(Wall::now()) : std::nullopt);
 }
 
 /// @param waiting  since when steps wait for it; none do at the end of a run or in a pause
 void RunCheckpoints::complete(std::optional<Wall::time_point> waiting) {
+  std::uint64_t bytes = 0;
   attempt([&] {
-    writer_->finish();
+    bytes = finish_file();
     if (partition_.communicator().is_root())
       remove_old_checkpoints(folder_.checkpoints(), input_.checkpoint.keep, sound_step_);
   });
-  if (!writer_) return;
+  if (!writer_ && !surviving_) return;
   if (waiting) pause_ += seconds_since(*waiting);
   ++report_.written;
   report_.pause_s += pause_;
   report_.longest_pause_s = std::max(report_.longest_pause_s, pause_);
-  report_.bytes = writer_->bytes();
-  const std::string text = report_text(*writer_, pause_);
+  report_.bytes = bytes;
+  const std::string text = report_text(file(), bytes, pause_);
   writer_.reset();  // before the status, which may be what cannot be written
+  surviving_.reset();
   tell_(text, true);
+}
+
+/// @return  its bytes, on the root
+std::uint64_t RunCheckpoints::finish_file() {
+  if (surviving_) {
+    if (const std::optional<std::uint64_t> bytes = surviving_->finish()) return *bytes;
+    surviving_.reset();
+    begin_writer();
+  }
+  writer_->finish();
+  return writer_->bytes();
 }
 
 void RunCheckpoints::restore(const RunPosition& position) {

@@ -7,11 +7,13 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "case/case.hpp"
 #include "domains/partition.hpp"
 #include "output/checkpoint/checkpoint.hpp"
 #include "output/checkpoint/checkpoint_writer.hpp"
+#include "output/checkpoint/surviving_checkpoint.hpp"
 #include "output/folder/run_folder.hpp"
 #include "output/frames/frame.hpp"
 #include "output/schedule.hpp"
@@ -36,7 +38,8 @@ class RunCheckpoints {
   /// To be called after every step; advances. The same on all ranks.
   [[nodiscard]] bool due();
   /// Begins one of the present state, between two steps. Collective. @param position  but for what is known here
-  void begin(RunPosition position);
+  /// @param last  of the run: it survives the run, for mpiexec kills its ranks a second after Ctrl-C
+  void begin(RunPosition position, bool last = false);
   /// After every step: lets one appear that all ranks have written. Collective when there is one.
   void look();
   /// Waits for the one that is being written. Collective. @param steps_wait  steps are to follow: it counts as a pause
@@ -53,7 +56,14 @@ class RunCheckpoints {
   [[nodiscard]] const CheckpointReport& report() const { return report_; }
 
  private:
-  [[nodiscard]] Checkpoint content(const RunPosition& position) const;
+  void begin_writer();
+  void begin_surviving();
+  void create_checkpoint_folder() const;
+  [[nodiscard]] std::filesystem::path file() const;
+  [[nodiscard]] std::vector<std::filesystem::path> companions() const;
+  [[nodiscard]] Checkpoint content(Snapshot now, State model) const;
+  void complete_earlier(CheckpointWriter& earlier);
+  [[nodiscard]] std::uint64_t finish_file();
   void complete(std::optional<std::chrono::steady_clock::time_point> waiting);
   template <class Work>
   void attempt(Work&& work);
@@ -64,7 +74,9 @@ class RunCheckpoints {
   Tell tell_;
   Schedule times_;
   std::unique_ptr<CheckpointWriter> writer_;
+  std::unique_ptr<SurvivingCheckpoint> surviving_;
   std::int64_t begun_at_ = -1;  ///< step of the last one
+  RunPosition position_;        ///< there
   std::int64_t sound_step_ = -1;
   double pause_ = 0;  ///< s, of the one that is being written
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();

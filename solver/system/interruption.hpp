@@ -24,9 +24,10 @@ inline void handle_unless_ignored(int signal, void (*handler)(int)) {
 /// be aborted polls it.
 inline std::atomic<int> interruption{0};
 
-/// Thrown where work that has written nothing is given up because of it; main turns it into 128 + the signal.
-inline void give_up_if_interrupted() {
-  if (interruption != 0) throw InputError(Problem{"", 0, "", "interrupted; nothing has been written", "", ""});
+/// Thrown where work that has written nothing is given up because of it; main turns it into 128 + the signal. For work
+/// of one rank, or in Communicator::agree: at the ends of all parts that may take a second.
+inline void give_up_if_interrupted(const char* words = "interrupted; nothing has been written") {
+  if (interruption != 0) throw InputError(Problem{"", 0, "", words, "", ""});
 }
 
 /// What a program that ends by such a request returns, as shells do: 130 for Ctrl-C, 143 for SIGTERM.

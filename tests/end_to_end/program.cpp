@@ -123,8 +123,8 @@ Outcome call_each_rank(const std::vector<RankCall>& calls) {
   return outcome_of(launcher(calls.size()) + " sh '" + scratch.path("ranks.sh").string() + "'");
 }
 
-pid_t start_ranks(int ranks, const std::string& arguments) {
-  return start(launch(ranks, arguments) + " > /dev/null 2>&1 < /dev/null");
+pid_t start_ranks(int ranks, const std::string& arguments, const std::string& environment) {
+  return start(launch(ranks, arguments, environment) + " > /dev/null 2>&1 < /dev/null");
 }
 
 int call_interrupted(const std::string& arguments, int signal, const std::function<bool()>& ready) {

@@ -30,7 +30,7 @@ struct RankCall {
 };
 Outcome call_each_rank(const std::vector<RankCall>& calls);
 /// Starts the program on several ranks and does not wait for it. Returns the launcher, whose children the ranks are.
-pid_t start_ranks(int ranks, const std::string& arguments);
+pid_t start_ranks(int ranks, const std::string& arguments, const std::string& environment = "");
 
 /// Runs the built program and sends it a signal as soon as `ready` holds, after 50 s in any event. Returns its exit
 /// code, -1 when the signal has killed it. @param arguments  may redirect its output

@@ -187,6 +187,21 @@ TEST(Program, GivesUpAMeshThatTakesTooLongWhenItIsInterrupted) {
   EXPECT_FALSE(std::filesystem::exists(scratch.path("run")));
 }
 
+TEST(Program, GivesUpALargeModelBeforeItsFirstStepWhenItIsInterrupted) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", changed("cells = [2, 2, 1]", "cells = [20, 20, 20]"));
+  const std::string err = scratch.path("err").string(), run = scratch.path("run").string();
+  for (const auto& [phase, words] : {std::pair{"reading the mesh", "interrupted; nothing has been written"},
+                                     {"dividing the model", "interrupted before the first step"}}) {
+    EXPECT_EQ(call_interrupted("run " + file + " --progress log -f -o '" + run + "' 2> '" + err + "'", SIGTERM,
+                               [&] { return read_text(err).find(phase) != std::string::npos; }),
+              143);
+    EXPECT_NE(read_text(err).find(std::string("breccia: error: ") + words + "\n"), std::string::npos)
+        << read_text(err);
+  }
+  EXPECT_FALSE(std::filesystem::exists(run + "/summary.json"));
+}
+
 TEST(Program, ThatIsKilledIsToldInterruptedAndLeavesItsFolderFree) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();

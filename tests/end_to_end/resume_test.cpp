@@ -10,6 +10,7 @@
 #include <sstream>
 #include <thread>
 
+#include "end_to_end/process_tree.hpp"
 #include "end_to_end/program.hpp"
 
 /// Runs that end before their time and go on from a checkpoint, against the same run undisturbed.
@@ -141,6 +142,31 @@ TEST_F(Resume, GivesTheSameBitsAfterKillsAtAnyMoment) {
   }
   waitpid(process, nullptr, 0);
   expect_same_as_undisturbed("killed");
+}
+
+/// mpiexec kills its ranks a second after Ctrl-C; here each write and fsync in the run's folder takes so long that no
+/// checkpoint is complete by then.
+TEST_F(Resume, GivesTheSameBitsAfterCtrlCUnderMpiexecOnASlowDisk) {
+  const std::string slow = "LD_PRELOAD=" BRECCIA_FAULTY_DISK " FAULTY_DISK='/ended_ 0 0 15000'";
+  for (const int ranks : {1, 2, 3}) {
+    const std::string name = "ended_" + std::to_string(ranks);
+    const pid_t launcher = start_ranks(ranks, "run " + case_ + " --progress none -o " + quoted(name), slow);
+    ASSERT_TRUE(wait_until([&] { return fs::exists(folder(name) / "frames/elements.hdf.series"); }));
+    kill(launcher, SIGINT);
+    waitpid(launcher, nullptr, 0);
+    ASSERT_TRUE(checkpoints(folder(name)).empty()) << "nothing is shown: it was written before the kill";
+    const Outcome refused = resume(name);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("another run writes here: process "), std::string::npos) << refused.err;
+    const auto ended = [&] { return status_lines(folder(name)).back().value("state", "") == "interrupted"; };
+    ASSERT_TRUE(wait_until(ended));
+    const std::vector<json> lines = status_lines(folder(name));
+    EXPECT_NE(lines[lines.size() - 2].value("text", "").find("writes its checkpoint step_"), std::string::npos);
+    EXPECT_NE(lines.back().value("message", "").find("is complete"), std::string::npos) << lines.back();
+    ASSERT_EQ(checkpoints(folder(name)).size(), 1U);
+    EXPECT_TRUE(wait_until([&] { return resume(name, ranks).exit_code == 0; }));
+    expect_same_as_undisturbed(name);
+  }
 }
 
 TEST_F(Resume, GoesOnInAnotherFolderAndLeavesTheFirstAsItIs) {

@@ -139,7 +139,7 @@ bool belong_together(const Records& records) {
 /// What killed runs left of checkpoints. One that cannot be removed is no harm.
 void remove_left_over(const fs::path& folder) {
   std::error_code ignored;
-  static const std::regex unfinished(R"(\.step_\d+\.h5\.tmp)");
+  static const std::regex unfinished(R"(\.step_\d+\.h5(\.\d+\.\d+)?\.tmp)");
   std::vector<fs::path> left_over;
   for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
     if (std::regex_match(entry->path().filename().string(), unfinished)) left_over.push_back(entry->path());

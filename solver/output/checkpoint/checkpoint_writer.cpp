@@ -3,7 +3,6 @@
 #include <fcntl.h>
 
 #include <algorithm>
-#include <cstring>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -30,22 +29,16 @@ Hdf5Format checkpoint_format(const std::vector<CheckpointColumn>& columns) {
   return {"checkpoint", "BrecciaCheckpoint", {groups.begin(), groups.end()}, kCheckpointHeader};
 }
 
-std::vector<std::uint64_t> numbers_of(const std::vector<std::byte>& bytes) {
-  std::vector<std::uint64_t> numbers(bytes.size() / sizeof(std::uint64_t));
-  if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
-  return numbers;
-}
-
 }  // namespace
 
-CheckpointWriter::CheckpointWriter(std::filesystem::path file, Checkpoint content, const Communicator& communicator,
-                                   std::vector<std::filesystem::path> companions)
+CheckpointWriter::CheckpointWriter(std::unique_ptr<CheckpointRanks> ranks, std::filesystem::path file,
+                                   Checkpoint content, std::vector<std::filesystem::path> companions)
     : file_(std::move(file)),
       content_(std::move(content)),
-      communicator_(communicator),
+      ranks_(std::move(ranks)),
       companions_(std::move(companions)),
       columns_(checkpoint_columns(content_)) {
-  communicator_.set_phase("checkpoint");
+  ranks_->set_phase("checkpoint");
   try {
     lay_out();
     sums_.resize(columns_.size());
@@ -63,6 +56,7 @@ CheckpointWriter::~CheckpointWriter() {
 
 /// Where no thread is to be had (a limit of processes or of memory) the steps wait for the whole of it.
 void CheckpointWriter::begin_writing() {
+  if (!ranks_->may_use_thread()) return write_part();
   try {
     thread_ = std::thread([this] { write_part(); });
   } catch (const std::system_error&) {
@@ -71,24 +65,25 @@ void CheckpointWriter::begin_writing() {
 }
 
 void CheckpointWriter::remove_unfinished() const {
-  if (communicator_.is_root()) (void)remove_file(temporary_of(file_), Depth::subfolder);
+  if (ranks_->is_root()) (void)remove_file(temporary_of(file_), Depth::subfolder);
 }
 
 /// Which rows are whose, which columns are worth a place, and where it is.
 void CheckpointWriter::lay_out() {
-  const auto rank = static_cast<std::size_t>(communicator_.rank());
-  std::vector<double> stored;
-  std::vector<std::uint64_t> mine;
+  const auto rank = static_cast<std::size_t>(ranks_->rank());
+  std::vector<std::uint64_t> mine;  // rows, then whether they are worth a place
   for (const CheckpointColumn& column : columns_) {
-    const bool here = column.of_list || communicator_.is_root();
+    const bool here = column.of_list || ranks_->is_root();
     mine.push_back(here ? column.rows : 0);
-    stored.push_back(here && !column.is_zero() ? 1 : 0);
   }
-  communicator_.max(stored);
-  const auto of_ranks = communicator_.all_gather(std::span<const std::uint64_t>(mine));
+  for (const CheckpointColumn& column : columns_)
+    mine.push_back((column.of_list || ranks_->is_root()) && !column.is_zero() ? 1 : 0);
+  const auto of_ranks = ranks_->all_gather(mine);
   for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const bool zero = std::all_of(of_ranks.begin(), of_ranks.end(),
+                                  [&](const auto& of_rank) { return of_rank[columns_.size() + c] == 0; });
     IndexedColumn& column = index_.columns.emplace_back(
-        IndexedColumn{columns_[c].path(), columns_[c].type, columns_[c].components, 0, stored[c] == 0, {}, {}});
+        IndexedColumn{columns_[c].path(), columns_[c].type, columns_[c].components, 0, zero, {}, {}});
     Rows& rows = rows_.emplace_back(Rows{mine[c], 0, 0});
     for (std::size_t r = 0; r < of_ranks.size(); ++r) {
       column.rows.push_back(of_ranks[r][c]);
@@ -96,9 +91,9 @@ void CheckpointWriter::lay_out() {
       rows.total += of_ranks[r][c];
     }
   }
-  std::vector<std::byte> places;
-  communicator_.agree([&] {
-    if (!communicator_.is_root()) return;
+  std::vector<std::uint64_t> places;
+  ranks_->agree([&] {
+    if (!ranks_->is_root()) return;
     try {
       std::vector<Column> stored_columns;
       for (std::size_t c = 0; c < columns_.size(); ++c) {
@@ -106,26 +101,24 @@ void CheckpointWriter::lay_out() {
       }
       const std::size_t bound = index_bound(index_.columns, 2 * stored_columns.size() + 2, of_ranks.size());
       stored_columns.push_back(index_column(bound));
-      const Hdf5Skeleton skeleton = hdf5_skeleton(stored_columns, checkpoint_format(columns_));
+      Hdf5Skeleton skeleton = hdf5_skeleton(stored_columns, checkpoint_format(columns_));
       index_.size = skeleton.size;
       index_place_ = {skeleton.offsets.back(), bound, 0};
-      const SharedFile shared(temporary_of(file_), file_, O_CREAT);
-      for (Hdf5Skeleton::Part part : skeleton.structure) {
+      const SharedFile made(temporary_of(file_), file_, O_CREAT);
+      for (Hdf5Skeleton::Part& part : skeleton.structure) {
         if (part.offset == 0) {  // the header's place, which stays empty until all is written
           part.offset = kCheckpointHeader;
           part.bytes.erase(part.bytes.begin(), part.bytes.begin() + kCheckpointHeader);
         }
-        shared.write_at(part.offset, part.bytes);
         index_.structure.push_back({part.offset, part.bytes.size(), checksum_of(part.bytes)});
+        structure_.push_back(std::move(part.bytes));
       }
-      const auto bytes = std::as_bytes(std::span(skeleton.offsets));
-      places.assign(bytes.begin(), bytes.end());
+      places = std::move(skeleton.offsets);
     } catch (const Hdf5Failure& failure) {
       throw output_error(file_, "cannot write this file: HDF5 failed at " + failure.what, failure.error_number);
     }
   });
-  communicator_.broadcast(places);
-  const std::vector<std::uint64_t> offsets = numbers_of(places);
+  const std::vector<std::uint64_t> offsets = ranks_->all_gather(places).front();
   std::size_t next = 0;
   for (IndexedColumn& column : index_.columns) {
     if (!column.zero) column.offset = offsets.at(next++);
@@ -136,7 +129,8 @@ void CheckpointWriter::lay_out() {
 void CheckpointWriter::write_part() {
   try {
     SharedFile shared(temporary_of(file_), file_, 0);
-    if (communicator_.is_root()) shared.reserve(index_.size);
+    if (ranks_->is_root()) shared.reserve(index_.size);
+    for (std::size_t p = 0; p < structure_.size(); ++p) shared.write_at(index_.structure[p].offset, structure_[p]);
     std::vector<std::byte> bytes;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (index_.columns[c].zero || rows_[c].mine == 0) continue;
@@ -155,7 +149,7 @@ void CheckpointWriter::write_part() {
 }
 
 void CheckpointWriter::gather_checksums() {
-  const auto of_ranks = communicator_.all_gather(std::span<const std::uint64_t>(sums_));
+  const auto of_ranks = ranks_->all_gather(sums_);
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     IndexedColumn& column = index_.columns[c];
     for (std::size_t r = 0; r < of_ranks.size(); ++r)
@@ -181,13 +175,13 @@ void CheckpointWriter::publish() {
 
 void CheckpointWriter::finish() {
   if (thread_.joinable()) thread_.join();
-  communicator_.set_phase("end of a checkpoint");
-  communicator_.agree([&] {
+  ranks_->set_phase("end of a checkpoint");
+  ranks_->agree([&] {
     if (failure_) throw OutputError(*failure_);
   });
   gather_checksums();
-  communicator_.agree([&] {
-    if (communicator_.is_root()) publish();
+  ranks_->agree([&] {
+    if (ranks_->is_root()) publish();
   });
   published_ = true;
 }

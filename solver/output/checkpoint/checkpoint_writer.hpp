@@ -1,17 +1,21 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "output/checkpoint/checkpoint.hpp"
 #include "output/checkpoint/checkpoint_columns.hpp"
 #include "output/checkpoint/checkpoint_index.hpp"
+#include "output/checkpoint/checkpoint_ranks.hpp"
 
 namespace breccia {
 
@@ -25,6 +29,10 @@ class CheckpointWriter {
   /// @param content     of this rank; the model's rows of the whole
   /// @param companions  files that must be on the disk before the checkpoint is; of the root
   CheckpointWriter(std::filesystem::path file, Checkpoint content, const Communicator& communicator,
+                   std::vector<std::filesystem::path> companions)
+      : CheckpointWriter(std::make_unique<MpiRanks>(communicator), std::move(file), std::move(content),
+                         std::move(companions)) {}
+  CheckpointWriter(std::unique_ptr<CheckpointRanks> ranks, std::filesystem::path file, Checkpoint content,
                    std::vector<std::filesystem::path> companions);
   CheckpointWriter(const CheckpointWriter&) = delete;
   CheckpointWriter& operator=(const CheckpointWriter&) = delete;
@@ -50,13 +58,14 @@ class CheckpointWriter {
 
   std::filesystem::path file_;
   Checkpoint content_;
-  Communicator communicator_;
+  std::unique_ptr<CheckpointRanks> ranks_;
   std::vector<std::filesystem::path> companions_;
   std::vector<CheckpointColumn> columns_;
   std::vector<Rows> rows_;  ///< (columns)
   CheckpointIndex index_;   ///< complete on the root only
   IndexedBytes index_place_;
-  std::vector<std::uint64_t> sums_;  ///< (columns) of this rank's rows
+  std::vector<std::vector<std::byte>> structure_;  ///< (index_.structure) of the root
+  std::vector<std::uint64_t> sums_;                ///< (columns) of this rank's rows
   std::optional<OutputError> failure_;
   std::atomic<bool> written_ = false;
   bool published_ = false;

@@ -34,11 +34,6 @@ std::string owner_in(const Descriptor& file) {
   return line.empty() ? "another process" : std::string(line.substr(0, line.find('\n')));
 }
 
-std::string own_words() {
-  const Provenance own = collect_provenance("", {});
-  return "process " + std::to_string(::getpid()) + " on " + own.host + ", since " + own.started;
-}
-
 /// Where the file system knows no locks: a process of this machine that is still there.
 bool owner_lives(const std::string& owner) {
   std::istringstream words(owner);
@@ -128,6 +123,11 @@ void send(int pipe, std::string_view bytes) { (void)!::write(pipe, bytes.data(),
 
 std::filesystem::path lock_file(const std::filesystem::path& folder) { return folder / "run.lock"; }
 
+std::string owner_words(const std::string& process) {
+  const Provenance now = collect_provenance("", {});
+  return "process " + process + " on " + now.host + ", since " + now.started;
+}
+
 RunLock::RunLock(const std::filesystem::path& folder) {
   const std::filesystem::path file = lock_file(folder);
   Opened opened = open_regular(file, O_RDWR | O_CREAT, Depth::file, 0644);
@@ -139,7 +139,7 @@ RunLock::RunLock(const std::filesystem::path& folder) {
                               "another folder, or this one when that run has ended", ""});
   }
   descriptor_ = opened.descriptor.release();
-  const std::string words = own_words() + "\n";
+  const std::string words = owner_words(std::to_string(::getpid())) + "\n";
   (void)!::ftruncate(descriptor_, 0);
   (void)!::pwrite(descriptor_, words.data(), words.size(), 0);
 }

@@ -15,11 +15,17 @@ class RunLock {
   RunLock& operator=(const RunLock&) = delete;
   ~RunLock();
 
+  /// Of the lock file. A copy of this process (fork) that keeps it open holds the folder, too.
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
  private:
   int descriptor_ = -1;
 };
 
 [[nodiscard]] std::filesystem::path lock_file(const std::filesystem::path& folder);
+
+/// The words of the lock file about its owner. @param process  its number
+[[nodiscard]] std::string owner_words(const std::string& process);
 
 /// Words for who holds a folder ("process 17 on host, since ..."); empty: it is free. A folder without a lock file is
 /// free. Throws nothing.

@@ -19,6 +19,7 @@
 #include "output/checkpoint/checkpoint.hpp"
 #include "output/checkpoint/checkpoint_columns.hpp"
 #include "output/checkpoint/checkpoint_index.hpp"
+#include "output/checkpoint/checkpoint_ranks.hpp"
 #include "output/checkpoint/checkpoint_writer.hpp"
 #include "unit/output/hdf5_reader.hpp"
 #include "unit/output/temporary_folder.hpp"
@@ -216,6 +217,39 @@ TEST_F(CheckpointFile, IsWrittenWhereNoThreadIsToBeHad) {
   EXPECT_NO_THROW(CheckpointWriter(later, sample(), {}, {}).finish());
   EXPECT_EQ(::pthread_setattr_default_np(&usual), 0);
   EXPECT_NO_THROW((void)read_checkpoint(later, {}));
+}
+
+/// Three ranks, as threads.
+void on_three(const std::filesystem::path& file, std::uint64_t token, const std::function<void(FileRanks&)>& work) {
+  std::vector<std::thread> threads;
+  for (int rank = 0; rank < 3; ++rank) {
+    threads.emplace_back([&, rank] {
+      FileRanks ranks(rank, 3, file, token);
+      work(ranks);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+TEST_F(CheckpointFile, CanBeExchangedByRanksWithoutMpiWhichLeaveNothingBehind) {
+  using Numbers = CheckpointRanks::Numbers;
+  const auto later = checkpoint_file(folder_.path(), 13);
+  std::ofstream(folder_.path() / ".step_000000000013.h5.1.0.tmp") << "left by a killed run";
+  on_three(later, 17, [](FileRanks& ranks) {
+    const auto rank = static_cast<std::uint64_t>(ranks.rank());
+    EXPECT_EQ(ranks.all_gather(Numbers(rank, rank)), (std::vector<Numbers>{{}, {1}, {2, 2}}));
+    EXPECT_NO_THROW(ranks.agree([] {}));
+    try {
+      ranks.agree([&] {
+        if (rank == 1) throw OutputError(Problem{"f", 0, "", "the disk is full", "", ""});
+      });
+      ADD_FAILURE() << "rank " << rank;
+    } catch (const OutputError& error) {
+      EXPECT_NE(std::string(error.what()).find("the disk is full"), std::string::npos);
+    }
+    EXPECT_EQ(ranks.all_gather(Numbers{rank}), (std::vector<Numbers>{{0}, {1}, {2}}));
+  });
+  EXPECT_EQ(test::names_in(folder_.path()).size(), 1U) << "only the checkpoint from before";
 }
 
 TEST_F(CheckpointFile, IsRemovedWhenEnoughLaterOnesAreThere) {
