@@ -6,7 +6,6 @@
 #include "base/index.hpp"
 #include "domains/motion_limit.hpp"
 #include "domains/state_records.hpp"
-#include "system/interruption.hpp"
 
 namespace breccia {
 namespace {
@@ -49,7 +48,6 @@ ExactSum work_of_loads(const State& state) {
 Domain::Domain(const Model& of, const ContactSearchParams& search) : model(of), derived(derive(of)), scratch(of.local) {
   start_state(model, state);
   start_joints(*this);
-  give_up_if_interrupted("interrupted before the first step");  // of one rank
   if (!model.has_contact) return;
   const ContactModel parts{model.contact, model.mesh, model.topology, model.local};
   contact = std::make_unique<ContactSearch>(search, parts, state.contact);

@@ -13,7 +13,6 @@
 #include "model/parameters.hpp"
 #include "model/surfaces_to_break.hpp"
 #include "parallel/totals.hpp"
-#include "system/interruption.hpp"
 
 namespace breccia {
 namespace {
@@ -23,28 +22,25 @@ constexpr double kLasting = 400, kMostStretched = 5;
 
 }  // namespace
 
-Partition::Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> model)
+Partition::Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> model,
+                     const std::function<void()>& between)
     : input_(input), communicator_(communicator), model_(std::move(model)), domains_(domain_spec(input)) {
+  const std::function<void()> poll = between ? between : [] {};
   if (communicator_.size() == 1) {
-    start_alone();
+    start_alone(poll);
   } else {
-    start_divided();
+    start_divided(poll);
   }
 }
 
-/// Where the end was asked for before the first step. Collective.
-void Partition::give_up_start() const {
-  communicator_.agree([] { give_up_if_interrupted("interrupted before the first step"); });
-}
-
-void Partition::start_alone() {
-  give_up_start();
+void Partition::start_alone(const std::function<void()>& poll) {
+  poll();
   domain_ = std::make_unique<Domain>(*model_, search_params(input_, *model_));
-  give_up_start();
+  poll();
   for (const InitialVelocity& initial : initial_velocities(input_, *model_)) add_velocity(*domain_, initial);
-  give_up_start();
+  poll();
   time_step_ = std::make_unique<TimeStep>(*model_);
-  give_up_start();
+  poll();
   model_->whole.step_ratio = time_step_->ratio();
   if (domain_->contact) model_->whole.contactor_size = domain_->contact->searches().contactor_size();
   relax_overlaps();
@@ -56,7 +52,7 @@ void Partition::relax_overlaps() {
 }
 
 /// The root holds the bare model until its elements have left for the ranks; each of them builds its own piece.
-void Partition::start_divided() {
+void Partition::start_divided(const std::function<void()>& poll) {
   communicator_.set_phase("first division of the model");
   std::vector<std::byte> packed;
   Contactors contactors;
@@ -67,21 +63,21 @@ void Partition::start_divided() {
     model_->whole.contactor_size = contactors.size;
     packed = pack(model_->whole);
   }
-  give_up_start();
+  poll();
   communicator_.broadcast(packed);
   WholeModel whole = unpack_whole(packed);
   Records mine = spread(communicator_, model_.get(), contactors);
   model_.reset();
   contactors = {};
-  give_up_start();
+  poll();
   const std::vector<Discretisation> kinds = discretisations(input_, whole.volume_groups);
   const std::vector<double> weight = Balance::weights_at_rest(mine, kinds);
   decompose_anew(std::move(whole), std::move(mine), weight, {});
-  give_up_start();
-  start_piece();
+  poll();
+  start_piece(poll);
 }
 
-void Partition::start_piece() {
+void Partition::start_piece(const std::function<void()>& poll) {
   start_joints(*domain_);
   for (const InitialVelocity& initial : initial_velocities(input_, *model_)) add_velocity(*domain_, initial);
   State& state = domain_->state;
@@ -90,7 +86,7 @@ void Partition::start_piece() {
   NodalState& nodes = state.nodes;
   domain_->exchange.begin_gather(nodes.position, nodes.velocity);
   domain_->exchange.finish_gather();
-  give_up_start();
+  poll();
   relax_overlaps();
   model_->whole.step_ratio = time_step_->ratio();
   motion_ = first_motion();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "case/case.hpp"
@@ -30,8 +31,10 @@ struct Snapshot {
 class Partition {
  public:
   /// Collective. @param model  on the root, null elsewhere: on several ranks a bare one is enough (build_bare_model)
+  /// @param between  called between parts of the work that may take a second; what it throws, on all ranks, ends it
   /// @pre input outlives this object
-  Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> model);
+  Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> model,
+            const std::function<void()>& between = {});
   /// Continues from another partition. Collective. @pre input differs from that partition's in what the elements of the
   /// snapshot do not depend on: [detection], [domains], and what the table of keys lets change (fixed_by_state)
   Partition(const case_::Case& input, const Communicator& communicator, Snapshot from);
@@ -74,11 +77,10 @@ class Partition {
   [[nodiscard]] double step_length(const case_::Stage& stage, double steps) const;
 
  private:
-  void give_up_start() const;
-  void start_alone();
-  void start_divided();
+  void start_alone(const std::function<void()>& poll);
+  void start_divided(const std::function<void()>& poll);
   void relax_overlaps();
-  void start_piece();
+  void start_piece(const std::function<void()>& poll);
   void divide_again();
   [[nodiscard]] Snapshot opened() const;  ///< but for its state
   [[nodiscard]] StepState step_state() const;

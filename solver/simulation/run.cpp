@@ -36,7 +36,9 @@ class Runner {
  public:
   Runner(const case_::Case& input, std::unique_ptr<Model> whole, const std::vector<std::unique_ptr<Sink>>& sinks,
          const Communicator& communicator, const RunFolder* folder)
-      : Runner(input, sinks, communicator, folder, [&] { return Partition(input, communicator, std::move(whole)); }) {}
+      : Runner(input, sinks, communicator, folder,
+               [&] { return Partition(input, communicator, std::move(whole), [&] { give_up_start(communicator); }); }) {
+  }
 
   Runner(const case_::Case& input, Checkpoint from, const ResumeOptions& options,
          const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator, const RunFolder& folder)
@@ -65,7 +67,7 @@ class Runner {
                              std::to_string(communicator_.size()) + " rank" + (communicator_.size() == 1 ? "" : "s"),
                          true);
     if (!start_words_.empty()) output_.tell_event("start", start_words_, true);
-    give_up_start();
+    give_up_start(communicator_);
     try {
       for (auto s = first_stage(); s < input_.stages.size() && status_ == "complete"; ++s) run_stage(s);
       if (checkpoints_) end_with_checkpoint();
@@ -134,8 +136,8 @@ class Runner {
   }
 
   /// A run that has done nothing has nothing to lose.
-  void give_up_start() const {
-    communicator_.agree([] { give_up_if_interrupted("interrupted before the first step"); });
+  static void give_up_start(const Communicator& communicator) {
+    communicator.agree([] { give_up_if_interrupted("interrupted before the first step"); });
   }
 
   [[nodiscard]] std::size_t first_stage() const { return from_ ? static_cast<std::size_t>(from_->stage) : 0; }
@@ -162,8 +164,8 @@ class Runner {
       take_commands();
       steps.look();
       tell_of_step(steps);
-      look_at_state();                                 // a script may request the end: this step is the last one then
-      if (output_.steps_done() == 0) give_up_start();  // it may take long to write the first frame
+      look_at_state();  // a script may request the end: this step is the last one then
+      if (output_.steps_done() == 0) give_up_start(communicator_);  // it may take long to write the first frame
       const bool end = s + 1 == input_.stages.size() && steps.at_last();
       const bool last = end || stop_commanded_ || output_.steps_done() + 1 == input_.time.max_steps ||
                         clock().time + clock().dt > options_.until - 0.5 * clock().dt;

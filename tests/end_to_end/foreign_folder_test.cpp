@@ -34,6 +34,7 @@ const std::vector<std::string> kNames{"case.toml",
                                       "checkpoints",
                                       "extracts",
                                       "extracts/stress",
+                                      "replay",
                                       "frames/elements.hdf.series",
                                       "frames/elements_000001.vtkhdf",
                                       "checkpoints/step_000000000040.h5",
@@ -168,7 +169,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Command{"resume_elsewhere", "resume RUN -o NEW --until '4.05 ms' --progress none"},
                     Command{"start_from_it", "run START -o NEW --progress none --set time.max_steps=1"},
                     Command{"report", "report RUN --no-pictures"}, Command{"diff", "diff OTHER RUN"},
-                    Command{"control", "control RUN stop --patience 1"}),
+                    Command{"control", "control RUN stop --patience 1"},
+                    Command{"insitu_replay", "insitu replay RUN fractures"}),
     [](const auto& command) { return std::string(command.param.name); });
 
 TEST(OwnFolder, IsNotCopiedIntoItself) {

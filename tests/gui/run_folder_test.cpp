@@ -6,8 +6,15 @@
 
 #include <QDir>
 #include <QFile>
+#include <QFileInfo>
 #include <QTemporaryDir>
 #include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/run_case.hpp"
 
 namespace breccia::gui::run_folder_test {
 namespace {
@@ -135,6 +142,50 @@ TEST(RunFolder, NoLinkAndNoPipeOfAFolderIsOpened) {
       EXPECT_FALSE(is_run_folder(run)) << name;
       EXPECT_TRUE(case_text_of(run).isEmpty()) << name;
       EXPECT_TRUE(read_series(run, "elements").empty()) << name;
+    }
+  }
+}
+
+/// All that opening a run's folder reads.
+void expect_nothing_from_outside(const QString& run, const std::string& where) {
+  EXPECT_TRUE(RunProgress(run).look().state.isEmpty()) << where;
+  EXPECT_FALSE(case_text_of(run).contains("secret")) << where;
+  EXPECT_FALSE(was_run_with_another(run, "")) << where;
+  EXPECT_FALSE(is_held(run)) << where;
+  EXPECT_FALSE(origin_of(run).case_file.contains("secret")) << where;
+  for (const char* part : {"elements", "joints", "contacts"}) EXPECT_TRUE(read_series(run, part).empty()) << where;
+  for (const RunCheckpoint& checkpoint : read_checkpoints(run)) EXPECT_EQ(checkpoint.step, 900) << where;
+  (void)writes_elements(run);
+  (void)is_run_folder(run);
+}
+
+TEST(RunFolder, WhateverStandsUnderItsNamesDoesNotHangItsReaders) {
+  const QTemporaryDir scratch;
+  const QString outside = scratch.filePath("outside"), run = scratch.filePath("run");
+  const QByteArray secret =
+      "{\"state\":\"running\",\"program\":\"breccia\",\"inputs\":[{\"file\":\"secret\"}],\"files\":[{\"name\":"
+      "\"step_000000000777.h5\",\"time\":1}]}\nsecret\n1,2\n";
+  QDir().mkpath(outside);
+  append(outside + "/step_000000000777.h5", secret);
+  append(outside + "/elements.hdf.series", secret);
+  append(scratch.filePath("secret"), secret);
+  for (const char* name :
+       {"status.jsonl", "provenance.json", "case.toml", "history.csv", "bodies.csv", "summary.json", "summary.txt",
+        "run.lock", "control", "extracts.csv", "frames", "checkpoints", "extracts", "frames/elements.hdf.series",
+        "frames/joints.hdf.series", "checkpoints/step_000000000900.h5"}) {
+    const std::vector<std::pair<const char*, std::function<void(const char*)>>> kinds{
+        {"link to a file",
+         [&](const char* at) { (void)!::symlink(QFile::encodeName(scratch.filePath("secret")).constData(), at); }},
+        {"link to a folder", [&](const char* at) { (void)!::symlink(QFile::encodeName(outside).constData(), at); }},
+        {"dangling link", [](const char* at) { (void)!::symlink("/nonexistent/file", at); }},
+        {"endless device", [](const char* at) { (void)!::symlink("/dev/zero", at); }},
+        {"pipe", [](const char* at) { ::mkfifo(at, 0600); }},
+        {"folder", [](const char* at) { ::mkdir(at, 0700); }}};
+    for (const auto& [kind, make] : kinds) {
+      QDir(run).removeRecursively();
+      QDir().mkpath(QFileInfo(run + "/" + name).path());
+      make(QFile::encodeName(run + "/" + name).constData());
+      expect_nothing_from_outside(run, std::string(kind) + " under " + name);
     }
   }
 }
