@@ -16,7 +16,8 @@ std::string words_of_files(const SoundState& sound, const RunFolder& folder) {
   if (last == all.end())
     return "; sound before that: " + frame + ", no checkpoint (set checkpoint.steps or checkpoint.interval)";
   return "; sound before that: " + last->file.string() + ", " + frame + "; a case with [start] from = \"" +
-         folder.root.string() + "\", step = " + std::to_string(last->step) + "continues from there with other settings";
+         folder.root.string() + "\", step = " + std::to_string(last->step) +
+         " continues from there with other settings";
 }
 
 }  // namespace
