@@ -245,7 +245,7 @@ constexpr auto model_keys = std::to_array<Key>({
              "itself: between its bodies and fragments. Such an entry has no other keys.", .example = "\"none\""},
     {.path = "contact[].penalty", .type = number, .unit = "Pa", .range = stiffnesses,
      .help = "Contact stress at overlap 1. The overlap is g/H, g in m, H the mean inradius of the elements of the "
-             "target body (a fifth of an edge): the stiffness is penalty/H, Pa/m, which `breccia check` prints. Flat "
+             "target body (a sixth of an edge): the stiffness is penalty/H, Pa/m, which `breccia check` prints. Flat "
              "faces that both carry contact points press with up to twice that stress. Give this or penalty_factor.",
      .example = "\"7500 GPa\""},
     {.path = "contact[].penalty_factor", .level = basic, .type = number, .fallback = "1", .range = positive,
