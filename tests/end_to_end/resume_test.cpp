@@ -147,12 +147,13 @@ TEST_F(Resume, GivesTheSameBitsAfterKillsAtAnyMoment) {
 /// mpiexec kills its ranks a second after Ctrl-C, here four, as ranks may share cores with other tests; each write and
 /// fsync in the run's folder takes so long that no checkpoint is complete by then.
 TEST_F(Resume, GivesTheSameBitsAfterCtrlCUnderMpiexecOnASlowDisk) {
-  const std::string slow = "LD_PRELOAD=" BRECCIA_FAULTY_DISK " FAULTY_DISK='/ended_ 0 0 25000'";
+  const std::string slow = "LD_PRELOAD=" BRECCIA_FAULTY_DISK " FAULTY_DISK='/ended_ 0 0 40000'";
   setenv("OMPI_MCA_odls_base_sigkill_timeout", "4", 1);
   for (const int ranks : {1, 2, 3}) {
     const std::string name = "ended_" + std::to_string(ranks);
     const pid_t launcher = start_ranks(ranks, "run " + case_ + " --progress none -o " + quoted(name), slow);
-    ASSERT_TRUE(wait_until([&] { return fs::exists(folder(name) / "frames/elements.hdf.series"); }));
+    ASSERT_TRUE(
+        wait_until([&] { return read_text(folder(name) / "status.jsonl").find("\"step\":") != std::string::npos; }));
     kill(launcher, SIGINT);
     waitpid(launcher, nullptr, 0);
     ASSERT_TRUE(checkpoints(folder(name)).empty()) << "nothing is shown: it was written before the kill";
