@@ -24,6 +24,20 @@ TEST(ContactParams, OfAPairHoldForPointsOfEitherGroup) {
   EXPECT_EQ(params.law(1, 1).penalty, 300e9);
 }
 
+TEST(ContactParams, HaveAPenaltyOfTheSofterBodyWhereTheCaseGivesNoneOrAFactor) {
+  std::string text = test::kTwoBoxesCase;
+  const std::string given = "penalty = \"300 GPa\"";
+  text.erase(text.find(given), given.size());
+  const std::vector<std::string> softer{"material[1].young=10e9"};
+  EXPECT_EQ(contact_params(two_boxes_case(softer, text), {"left", "right"}).law(1, 1).penalty, 10e9);
+  const std::string any = "penalty = \"400 GPa\"";
+  text.replace(text.find(any), any.size(), "penalty_factor = 3");
+  const ContactParams params = contact_params(two_boxes_case(softer, text), {"left", "right"});
+  EXPECT_EQ(params.law(0, 1).penalty, 30e9);
+  EXPECT_EQ(params.law(1, 0).penalty, 30e9);
+  EXPECT_EQ(params.law(0, 0).penalty, 120e9);
+}
+
 TEST(ContactParams, OfPointsOnTheFirstGroupHoldForItsPointsAlone) {
   const ContactParams params =
       contact_params(two_boxes_case({"contact[0].points_on=\"first\""}), {"left", "right"});  // left on "*"
