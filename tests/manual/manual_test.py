@@ -231,7 +231,7 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.offered("breccia", "run", "--set", "time.safety", "="), [])
 
     def test_keys_to_explain_are_sections_and_keys(self):
-        self.assertEqual(self.offered("breccia", "explain", "joint.pen"), ["joint.penalty", "joint.penalty_factor"])
+        self.assertEqual(self.offered("breccia", "explain", "joint.pen"), ["joint.penalty_factor", "joint.penalty"])
         keys = self.offered("breccia", "explain", "")
         for key in ("title", "mesh", "mesh.raster.slit.lower", "stage.constraint", "stage.constraint.fixed", "function.ramp.to"):
             self.assertIn(key, keys)
