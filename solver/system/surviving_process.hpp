@@ -36,7 +36,8 @@ class SurvivingProcess {
   };
 
   /// @param work  is done in the copy, which ends with it. Threads are not copied: it takes no lock that one of them
-  ///              may have had, which leaves memory (malloc) and files, and excludes MPI, HDF5 and stdio
+  ///              may have had. Memory (malloc) and files are safe, libraries that no thread uses at the fork as well;
+  ///              MPI and stdio are not
   explicit SurvivingProcess(const std::function<void(const Parent&)>& work, std::vector<OrphanNote> notes = {});
   SurvivingProcess(const SurvivingProcess&) = delete;
   SurvivingProcess& operator=(const SurvivingProcess&) = delete;
