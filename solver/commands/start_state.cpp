@@ -81,7 +81,7 @@ fs::path chosen(const fs::path& case_file, const case_::Start& start, const fs::
   if (start.step == 0 && nearest != choices.end() && is_close(*nearest)) return nearest->file;
   const std::string given = start.step > 0 ? std::to_string(start.step) : quantity_text(start.at, "s");
   refuse(case_file, start, start.step > 0 ? "step" : "at",
-         "the run has no checkpoint of that" + (unreadable.empty() ? "" : ", unreadable ones excepted: " + unreadable),
+         "the run has no such checkpoint" + (unreadable.empty() ? "" : "; these cannot be read: " + unreadable),
          choices.empty() ? "none can be read" : words_of(choices), given);
 }
 
