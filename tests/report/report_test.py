@@ -85,7 +85,7 @@ def plain(folder=run, *options):
 
 def copied(name):
     folder = f"{scratch}/{name}"
-    shutil.copytree(run, folder)
+    shutil.copytree(run, folder, ignore=shutil.ignore_patterns(".*.tmp"))  # of a test that reports on the same run
     return folder
 
 
