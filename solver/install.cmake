@@ -1,6 +1,7 @@
 # What `cmake --install` and the Debian packages bring. Everything finds the rest relative to itself, so an installed folder can be moved.
 # Components: solver (package breccia) and insitu (package breccia-insitu, which needs ParaView).
-install(TARGETS breccia breccia_gmsh RUNTIME DESTINATION bin LIBRARY DESTINATION lib/breccia COMPONENT solver)
+install(TARGETS breccia RUNTIME DESTINATION bin COMPONENT solver)
+install(TARGETS breccia_gmsh LIBRARY DESTINATION lib/breccia COMPONENT solver)
 install(PROGRAMS meshes/breccia-picture DESTINATION bin COMPONENT solver)
 install(FILES meshes/render.py meshes/render_fields.py meshes/render_surface.py DESTINATION share/breccia COMPONENT solver)
 install(DIRECTORY meshes/ DESTINATION share/breccia/meshes COMPONENT solver
