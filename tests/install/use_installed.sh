@@ -30,6 +30,12 @@ if command -v pvbatch >/dev/null; then
   is_picture picture.png
 fi
 
+if [[ -d $prefix/share/doc/breccia/guide ]]; then
+  page=$(breccia guide --address contact)
+  [[ $page == file://* && -s $(sed 's|file://||; s|%20| |g' <<<"$page") ]] || fail "the guide has no page at $page"
+fi
+
+[[ -s $prefix/lib/breccia/libbreccia_gmsh.so ]] || fail "the library that reads meshes with gmsh is not installed"
 for file in lib/breccia/libbreccia_catalyst2.so share/breccia/catalyst/python/breccia_catalyst2.py; do
   [[ -s $prefix/$file ]] || fail "the adaptor for Catalyst 2 is not whole, $file lacks"
 done
