@@ -1,8 +1,8 @@
-"""Refuses words that readers of other FDEM and FE codes stop at, in messages and in the comments of headers.
+"""Refuses words that readers of other FDEM and FE codes stop at, in messages, in the comments of headers and in pages.
 
 usage: words.py REPOSITORY
 Checks string literals that contain a blank (messages, help, forms, tooltips) of every source in solver/, gui/, catalyst/ and plugins/, and
-the comments of headers there. Adjacent literals are read as one text, as the compiler does, and so are the lines of a comment.
+the comments of headers there, and every page in Markdown without its code. Adjacent literals are read as one text, as the compiler does, and so are the lines of a comment.
 Prints one line a word, "file:line: word: what to write instead", and exits 1 when there is any.
 """
 
@@ -14,6 +14,7 @@ from pathlib import Path
 
 FOLDERS = ("solver", "gui", "catalyst", "plugins")
 HEADERS = {".hpp", ".h"}
+PAGES = ("*.md", *(f"{folder}/**/*.md" for folder in (*FOLDERS, "meshes", "tests")))
 SOURCES = {".cpp", ".hpp", ".cxx", ".h", ".py"}
 
 # Word (a regular expression) -> what to write instead.
@@ -50,6 +51,7 @@ CODE = re.compile(r"`[^`]*`|@param +\w+(?:, \w+)*|\b\w+\(\)")
 EXCEPTIONS = [
     ("solver/case/topics.cpp", r"static analysis\|settle", "a search word of `breccia explain`, which readers from other codes type"),
     ("*", r"[Ll]ook(?:s|ed|ing)? up|look-ups?", "the term for reading a table or tree"),
+    ("*.md", r"\b[Ss]ettl(?:es?|ed|ing)\b", "the term of geotechnics: ground or a structure settles under its weight"),
     ("catalyst/python/live_steering.py", r"say\(line\)", "the name of a function"),
 ]
 
@@ -106,6 +108,17 @@ def python_texts(source):
                 yield "string", covered, len(raw[:begin].decode())
 
 
+def markdown_texts(source):
+    """Paragraphs of a page; code in fences and spans is blanked."""
+    def blank(match):
+        return re.sub(r"[^\n]", "_", match.group())
+
+    text = re.sub(r"^ *```.*?^ *```", blank, source, flags=re.DOTALL | re.MULTILINE)
+    text = re.sub(r"(?<!`)(`+)(?!`).+?(?<!`)\1(?!`)", blank, text, flags=re.DOTALL)
+    for paragraph in re.finditer(r"(?:[^\n]+\n?)+", text):
+        yield "page", paragraph.group(), paragraph.start()
+
+
 def collapsed(text):
     """Text with every run of white space as one blank, and the offset of each of its characters."""
     out, offsets = [], []
@@ -122,7 +135,10 @@ def collapsed(text):
 def words_of(file, source):
     """(kind, line, word, plain) of every refused word in a source; file is its path in the repository."""
     suffix = Path(file).suffix
-    texts = python_texts(source) if suffix == ".py" else cpp_texts(source, suffix in HEADERS)
+    if suffix == ".md":
+        texts = markdown_texts(source)
+    else:
+        texts = python_texts(source) if suffix == ".py" else cpp_texts(source, suffix in HEADERS)
     found = set()
     for kind, text, begin in texts:
         flat, offsets = collapsed(text)
@@ -146,9 +162,11 @@ def sources(repository):
         for path in sorted((Path(repository) / folder).rglob("*")):
             if path.suffix in SOURCES:
                 yield path.relative_to(repository).as_posix(), path.read_text(encoding="utf-8")
+    for path in sorted(path for pattern in PAGES for path in Path(repository).glob(pattern)):
+        yield path.relative_to(repository).as_posix(), path.read_text(encoding="utf-8")
 
 
-def problems(repository, kinds=("string", "comment")):
+def problems(repository, kinds=("string", "comment", "page")):
     """Every refused word as "file:line: word: what to write instead"."""
     return [f"{file}:{line}: {word}: {plain}" for file, text in sources(repository) for kind, line, word, plain in words_of(file, text)
             if kind in kinds]

@@ -40,6 +40,7 @@ class Words(unittest.TestCase):
                 self.assertEqual(refused("solver/a.cpp", f'const char* text = "{old}";\n'), words)
                 self.assertEqual(refused("gui/a.hpp", f"/// {old}\n"), words)
                 self.assertEqual(refused("catalyst/a.py", f'"""{old}"""\n'), words)
+                self.assertEqual(refused("solver/a.md", f"Text. {old.replace('`', '')}\n"), words - {"settle"})
                 self.assertEqual(refused("solver/a.cpp", f'const char* text = "{plain}";\n'), set())
                 self.assertEqual(refused("solver/a.hpp", f"/// {plain}\n"), set())
 
@@ -53,6 +54,7 @@ class Words(unittest.TestCase):
         self.assertEqual(refused("solver/a.cpp", 'key("look"); character = \'"\'; key("held");\n'), set())
         self.assertEqual(refused("gui/a.hpp", 'int look = 1; const char* url = "http://told";\n'), set())
         self.assertEqual(refused("catalyst/a.py", "told = {'look': 1}  # asked\n"), set())
+        self.assertEqual(refused("a.md", "The key `held` of\n\n```sh\nlook told\n```\n"), set())
 
     def test_words_that_contain_a_refused_one_are_left_alone(self):
         self.assertEqual(refused("solver/a.hpp", "/// calmar, latest, outlook, threshold, essay, mask, shelled, relate\n"), set())
