@@ -79,7 +79,7 @@ bool goes_on(const RunRecord& record) {
 
 void note_end(QueuedRun& run) {
   const RunOutcome outcome = outcome_of(run.record.folder);
-  const bool stopped = run.stop_asked && outcome.told.state.isEmpty();
+  const bool stopped = run.stop_asked && outcome.last.state.isEmpty();
   run.state = stopped ? "stopped" : outcome.state;
   run.message = stopped ? QString() : outcome.message;
   if (run.state == "failed" && run.message.isEmpty())

@@ -31,7 +31,7 @@ struct RunRecord {
 
 /// How a run has ended, from its folder.
 struct RunOutcome {
-  RunStatus told;   ///< its last status
+  RunStatus last;   ///< its last status
   QString state;    ///< complete, stopped, failed, interrupted
   QString message;  ///< why it failed
 };

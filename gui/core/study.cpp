@@ -208,12 +208,12 @@ std::vector<StudyResult> study_results(const Study& study, const QueueContents& 
     const auto row = std::find_if(queue.runs.begin(), queue.runs.end(),
                                   [&](const QueuedRun& r) { return r.record.folder == run.folder; });
     const RunOutcome outcome = outcome_of(run.folder);
-    const bool said = !outcome.told.state.isEmpty();
+    const bool said = !outcome.last.state.isEmpty();
     const QString own = is_held(run.folder) ? "running" : said ? outcome.state : QObject::tr("not run");
     result.state = row != queue.runs.end() && !said ? row->state : own;
     if (said && result.state != "waiting") {
       result.columns = QStringList{"wall time [s]", "steps"};
-      result.values = {outcome.told.wall, outcome.told.step};
+      result.values = {outcome.last.wall, outcome.last.step};
       read_last_row(run.folder, result);
     }
     results.push_back(std::move(result));

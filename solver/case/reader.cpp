@@ -246,7 +246,8 @@ Case case_of(Node root, const std::filesystem::path& file, std::span<const std::
   ValueReader values(problems, c.file.parent_path());
   check_keys(root, values);
   const Node written = root;
-  expand_groups(root, around.volumes);
+  // The "*" of a parent's text may be a default that its reader added.
+  expand_groups(root, around.volumes, around.parent == nullptr);
   SectionReader reader(values, c, root, "", true);
   bind(reader, c);
   c.data = values.data_files();

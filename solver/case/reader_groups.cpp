@@ -94,9 +94,8 @@ void list_remaining_volumes(Node& root, std::span<const std::string> volumes) {
 }
 
 /// "*" of joint.group becomes the list of the groups with joints that no other entry names, unless a material of "*" is
-/// for groups that are not known yet: then it stays. With all groups known, an entry for none of them is left out: that
-/// of a parent may be a default of ours.
-void list_remaining_groups(Node& root, bool all_known) {
+/// for groups that are not known yet: then it stays.
+void list_remaining_groups(Node& root, bool drop_unused) {
   Node *materials = list_of(root, "material"), *joints = list_of(root, "joint");
   if (materials == nullptr || joints == nullptr || named_groups(*materials).contains(every_group)) return;
   std::set<std::string> named = named_groups(*joints);
@@ -108,7 +107,8 @@ void list_remaining_groups(Node& root, bool all_known) {
       remaining.push_back(*group);
   }
   replace_every_group(*joints, remaining);
-  if (all_known) std::erase_if(joints->items, [](const Node& joint) { return has_text(joint, "group", every_group); });
+  if (drop_unused)
+    std::erase_if(joints->items, [](const Node& joint) { return has_text(joint, "group", every_group); });
 }
 
 /// @param pattern  of the key below the table: "constraint[].group"
@@ -123,11 +123,11 @@ void expand_below(Node& table, std::string_view pattern) {
 
 }  // namespace
 
-void expand_groups(Node& root, std::span<const std::string> volumes) {
+void expand_groups(Node& root, std::span<const std::string> volumes, bool drop_unused) {
   list_remaining_volumes(root, volumes);
   for (const Key& key : schema()) {  // materials before joints
     if (key.type != ValueType::text_or_list) continue;
-    if (key.path == "joint[].group") list_remaining_groups(root, !volumes.empty());
+    if (key.path == "joint[].group") list_remaining_groups(root, drop_unused && !volumes.empty());
     expand_below(root, key.path);
   }
 }

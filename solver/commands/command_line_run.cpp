@@ -148,9 +148,10 @@ void define_race(CLI::App& app, Arguments& a) {
   CLI::Option* time =
       race->add_option_function<std::string>(
               "--time", set_time,
-              "length of a lap in simulated time, such as \"20 us\"; default: ten searches, and a minute for all laps")
+              "length of a repetition in simulated time, such as \"20 us\"; default: ten searches, at most a minute "
+              "for all")
           ->check(simulated_time(false));
-  race->add_option("--steps", s.steps, "length of a lap in steps")
+  race->add_option("--steps", s.steps, "length of a repetition in steps")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000}))
       ->excludes(time);
   race->add_option_function<std::string>(
@@ -165,12 +166,12 @@ void define_race(CLI::App& app, Arguments& a) {
   };
   race->add_option_function<std::vector<std::string>>(
           "--algorithms", choose,
-          "who races, such as ms,sorted_grid; default: all, brute_force only where the model is small")
+          "algorithms to compare, such as ms,sorted_grid; default: all, brute_force only where the model is small")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(names));
   race->add_option("--buffers", s.buffers,
-                   "buffers as multiples of the case's own, which races in any event; default 0.5,1,2,4")
+                   "buffers as multiples of the case's own, which is always compared; default 0.5,1,2,4")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(0.01, 100.0));

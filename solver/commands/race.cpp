@@ -21,12 +21,12 @@ namespace {
 using WallClock = std::chrono::steady_clock;
 
 constexpr int kRounds = 3;
-/// A lap whose length is not given: see race_case.
+/// A repetition whose length is not given: see race_case.
 constexpr std::int64_t kSearches = 10, kFewestSteps = 50;
-constexpr double kAllLaps = 60;  ///< s
+constexpr double kAllRepetitions = 60;  ///< s
 /// Steps between two checks of the wall time, by all ranks together.
 constexpr std::int64_t kStepsBetweenChecks = 10;
-constexpr std::int64_t kMostPieces = 1000;  ///< of a lap (TimingSegments)
+constexpr std::int64_t kMostPieces = 1000;  ///< of a repetition (TimingSegments)
 /// Points times contactors of a rank up to which all against all may race: some 60 ms a search, at 6 ns a pair.
 constexpr double kSmallEnough = 1e7;
 
@@ -128,21 +128,21 @@ class Race {
     }
   }
 
-  [[nodiscard]] std::size_t num_racers() const {
+  [[nodiscard]] std::size_t num_candidates() const {
     const std::set<double> multiples(settings_.buffers.begin(), settings_.buffers.end());
     return algorithms_.size() * (multiples.size() + (multiples.contains(1.0) ? 0 : 1));
   }
 
   /// @param own  m, the case's own buffer or, if it is automatic, the last one
-  void choose_racers(double own) {
+  void choose_candidates(double own) {
     std::set<double> multiples(settings_.buffers.begin(), settings_.buffers.end());
     multiples.insert(1.0);
     for (const auto algorithm : algorithms_) {
       for (const double multiple : multiples) {
         const bool as_given = multiple == 1.0;
-        const Racer racer{algorithm, as_given ? input_.detection.buffer : rounded(multiple * own, 3),
-                          as_given && algorithm == input_.detection.algorithm};
-        entries_.push_back({racer, {}});
+        const SearchCandidate candidate{algorithm, as_given ? input_.detection.buffer : rounded(multiple * own, 3),
+                                        as_given && algorithm == input_.detection.algorithm};
+        entries_.push_back({candidate, {}});
       }
     }
   }
@@ -150,7 +150,7 @@ class Race {
   [[nodiscard]] bool length_given() const { return settings_.steps > 0 || settings_.time > 0; }
 
   bool warm_up() {
-    const double most = kAllLaps / static_cast<double>(num_racers() * kRounds + 1);
+    const double most = kAllRepetitions / static_cast<double>(num_candidates() * kRounds + 1);
     double buffer = 0;
     const auto enough = [&](const Partition& partition, std::int64_t steps) {
       if (settings_.steps > 0) return steps >= settings_.steps;
@@ -162,14 +162,14 @@ class Race {
       return steps % kStepsBetweenChecks == 0 && communicator_.max(seconds_since(started_)) > most;
     };
     started_ = WallClock::now();
-    const Racer own{input_.detection.algorithm, input_.detection.buffer, true};
-    const bool finished = run_lap(own, enough, [&](const Partition& partition, const TimingSegments&) {
+    const SearchCandidate own{input_.detection.algorithm, input_.detection.buffer, true};
+    const bool finished = run_repetition(own, enough, [&](const Partition& partition, const TimingSegments&) {
       buffer = communicator_.max(partition.domain().contact->searches().buffer());
       result_.steps = partition.state().clock.steps - start_.state.state.clock.steps;
       if (partition.state().counters.searches == start_.state.state.counters.searches) throw nothing_touches();
     });
     if (!finished) return false;
-    choose_racers(input_.detection.buffer > 0 ? input_.detection.buffer : buffer);
+    choose_candidates(input_.detection.buffer > 0 ? input_.detection.buffer : buffer);
     piece_ = (result_.steps + kMostPieces - 1) / kMostPieces;
     return true;
   }
@@ -181,22 +181,22 @@ class Race {
       for (std::size_t i = 0; i < entries_.size(); ++i) {
         const std::size_t turn = result_.rounds % 2 == 0 ? i : entries_.size() - 1 - i;
         const auto take = [&](const Partition& partition, const TimingSegments& pieces) {
-          finish_lap(turn, partition, pieces);
+          finish_repetition(turn, partition, pieces);
         };
-        if (!run_lap(entries_[turn].racer, enough, take)) return false;
+        if (!run_repetition(entries_[turn].candidate, enough, take)) return false;
       }
       ++result_.rounds;
-      if (!length_given() && communicator_.max(seconds_since(started_)) > kAllLaps) break;
+      if (!length_given() && communicator_.max(seconds_since(started_)) > kAllRepetitions) break;
     }
     return true;
   }
 
-  /// @param enough  (partition, steps): the lap is over;  @param finish  (partition, pieces) at its end
+  /// @param enough  (partition, steps): the repetition is over;  @param finish  (partition, pieces) at its end
   template <class Enough, class Finish>
-  bool run_lap(const Racer& racer, const Enough& enough, const Finish& finish) {
+  bool run_repetition(const SearchCandidate& candidate, const Enough& enough, const Finish& finish) {
     case_::Case as_raced = input_;
-    as_raced.detection.algorithm = racer.algorithm;
-    as_raced.detection.buffer = racer.buffer;
+    as_raced.detection.algorithm = candidate.algorithm;
+    as_raced.detection.buffer = candidate.buffer;
     Partition partition(as_raced, communicator_, start_);
     StageDriver driver(as_raced, partition, start_.stage, schedule_);
     communicator_.barrier();
@@ -207,7 +207,7 @@ class Race {
       ++steps;
       pieces.step(partition);
       if (partition.state().signals.received.stop) return false;
-      if (progress_.due()) tell_lap(racer, steps);
+      if (progress_.due()) report_repetition(candidate, steps);
     }
     conclude(partition.domain());
     if (partition.state().signals.received.stop) return false;
@@ -216,12 +216,12 @@ class Race {
     return true;
   }
 
-  void finish_lap(std::size_t turn, const Partition& partition, const TimingSegments& pieces) {
-    ++laps_;
+  void finish_repetition(std::size_t turn, const Partition& partition, const TimingSegments& pieces) {
+    ++repetitions_;
     result_.end = partition.state().clock.time;
-    check_state(entries_[turn].racer, hash_of(partition.domain()).text());
+    check_state(entries_[turn].candidate, hash_of(partition.domain()).text());
     if (result_.rounds > 0) return least_[turn].keep_least(pieces);
-    Lap& least = entries_[turn].least;
+    Repetition& least = entries_[turn].least;
     least.searches = partition.state().counters.searches - start_.state.state.counters.searches;
     least.used = static_cast<double>(least.searches - 1) +
                  partition.domain().contact->searches().used_up(partition.state().nodes, communicator_);
@@ -229,22 +229,23 @@ class Race {
     least_.push_back(pieces);
   }
 
-  void tell_lap(const Racer& racer, std::int64_t steps) {
+  void report_repetition(const SearchCandidate& candidate, std::int64_t steps) {
     if (entries_.empty()) return progress_.tell({"warming up", 0, 0});
-    const double done = static_cast<double>(laps_) + static_cast<double>(steps) / static_cast<double>(result_.steps);
+    const double done =
+        static_cast<double>(repetitions_) + static_cast<double>(steps) / static_cast<double>(result_.steps);
     const auto all = static_cast<double>(entries_.size() * kRounds);
-    progress_.tell(
-        {fmt::format("lap {} of {}: {}", laps_ + 1, all, racer.name()), done / all, seconds_since(started_)});
+    progress_.tell({fmt::format("repetition {} of {}: {}", repetitions_ + 1, all, candidate.name()), done / all,
+                    seconds_since(started_)});
   }
 
   /// Results never depend on the contact search.
-  void check_state(const Racer& racer, const std::string& hash) {
+  void check_state(const SearchCandidate& candidate, const std::string& hash) {
     if (result_.state_hash.empty()) {
-      first_ = racer.name();
+      first_ = candidate.name();
       result_.state_hash = hash;
     }
     DEMAND(hash == result_.state_hash, fmt::format("({}) ends in state {}, ({}) in state {} after the same {} steps",
-                                                   first_, result_.state_hash, racer.name(), hash, result_.steps));
+                                                   first_, result_.state_hash, candidate.name(), hash, result_.steps));
   }
 
   case_::Case input_;
@@ -255,9 +256,9 @@ class Race {
   StepSchedule schedule_;  ///< of the driver at the start
   std::vector<case_::DetectionAlgorithm> algorithms_;
   std::vector<RaceEntry> entries_;
-  std::vector<TimingSegments> least_;  ///< (entries) of all laps
+  std::vector<TimingSegments> least_;  ///< (entries) of all repetitions
   std::int64_t piece_ = 1;             ///< steps
-  std::size_t laps_ = 0;
+  std::size_t repetitions_ = 0;
   WallClock::time_point started_;  ///< the warm-up, then the race
   std::string first_;              ///< who has set the state in which all must end
   RaceResult result_;
@@ -265,11 +266,11 @@ class Race {
 
 }  // namespace
 
-std::string Racer::algorithm_text() const {
+std::string SearchCandidate::algorithm_text() const {
   return case_::key_of("detection.algorithm").choice_list()[static_cast<std::size_t>(algorithm)];
 }
 
-std::string Racer::buffer_text() const { return buffer > 0 ? fmt::format("{} m", buffer) : "auto"; }
+std::string SearchCandidate::buffer_text() const { return buffer > 0 ? fmt::format("{} m", buffer) : "auto"; }
 
 RaceResult race_case(const case_::Case& input, const RaceSettings& settings, std::unique_ptr<Model> whole,
                      RaceProgress& progress, const Communicator& communicator) {

@@ -97,7 +97,6 @@ int run_command(const RunCommand& asked, const Communicator& world) {
     if (!world.is_root()) return;
     if (start) {
       refuse_contradictions(input, conflicts);
-      print_warnings(unused_entries(asked.case_file, input));
       print_warnings(overruled_constraints(conflicts));
       refuse_folder_of_state(root, *start);
       if (announce) std::cerr << "breccia: starting from " << printable(words_of(*start)) << '\n';

@@ -11,7 +11,6 @@
 #include "base/quantity_text.hpp"
 #include "case/problem_at.hpp"
 #include "case/reader.hpp"
-#include "case/reader_toml.hpp"
 #include "case/validate.hpp"
 #include "case/validate_motion.hpp"
 #include "domains/piece_mesh.hpp"
@@ -225,24 +224,6 @@ case_::Case read_case_of(const fs::path& case_file, const std::vector<std::strin
   if (!problems.empty()) throw InputError(std::move(problems));
   check_laws(input, whole);
   return input;
-}
-
-std::vector<std::string> unused_entries(const fs::path& case_file, const case_::Case& input) {
-  std::vector<std::string> sentences;
-  const case_::Node root = case_::parse_toml_file(case_file);
-  const case_::Node* joints = root.find("joint");
-  if (joints == nullptr) return sentences;
-  for (const case_::Node& entry : joints->items) {
-    const case_::Node* group = entry.find("group");
-    if (group == nullptr || group->text != case_::every_group) continue;
-    const auto is_of_entry = [&](const case_::Joint& joint) { return joint.origin.line == entry.line; };
-    if (std::any_of(input.joints.begin(), input.joints.end(), is_of_entry)) continue;
-    sentences.push_back(
-        fmt::format("{}:{}: joint.group: \"*\" stands for no group of the state and is left out: each "
-                    "group with joints has a [[joint]] of its own",
-                    case_file.string(), entry.line));
-  }
-  return sentences;
 }
 
 std::vector<ConstraintConflict> conflicts_of(const case_::Case& input, const StartState& start,

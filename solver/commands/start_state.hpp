@@ -35,9 +35,6 @@ struct StartState {
                                        const std::vector<std::string>& overrides,
                                        const std::optional<StartState>& start);
 
-/// The case's own [[joint]] entries of "*" that stand for no group of the state and are left out, a sentence each.
-[[nodiscard]] std::vector<std::string> unused_entries(const std::filesystem::path& case_file, const case_::Case& input);
-
 /// Constraints with different motions for the same nodes of the state, as constraint_conflicts. Collective.
 [[nodiscard]] std::vector<ConstraintConflict> conflicts_of(const case_::Case& input, const StartState& start,
                                                            const Communicator& world);

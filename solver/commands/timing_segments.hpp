@@ -11,8 +11,8 @@
 
 namespace breccia {
 
-/// Where the time of a lap goes, piece by piece: every lap does the same work in the same piece, and what disturbs the
-/// machine seldom disturbs the same piece of every lap.
+/// Time of a repetition by segments. Every repetition does the same work in the same segment, and a disturbance of the
+/// machine seldom falls into the same segment of every repetition.
 class TimingSegments {
  public:
   /// @param length  of a piece, steps
@@ -37,20 +37,20 @@ class TimingSegments {
     for (Piece& piece : pieces_) communicator.max(piece);
   }
   void keep_least(const TimingSegments& other) { keep_least(other, 0); }
-  /// Keeps the least of what is neither search nor contact, and so the same for all racers.
+  /// Keeps the least of what is neither search nor contact, and so the same for all candidates.
   void keep_least_rest(const TimingSegments& other) { keep_least(other, kRest, kRest + 1); }
 
-  /// @param alone  wall time is put together from its parts, of which the rest may be that of another lap: on one rank,
-  ///               where none waits for another
-  void sum_up(Lap& lap, bool alone) const {
+  /// @param alone  on one rank, where none waits for another: wall time is the sum of its parts, of which the rest may
+  ///               be that of another repetition
+  void sum_up(Repetition& repetition, bool alone) const {
     Piece sum{};
     for (const Piece& piece : pieces_) {
       for (std::size_t k = 0; k < kKinds; ++k) sum[k] += piece[k];
     }
-    lap.wall = alone ? sum[kRest] + sum[kSearch] + sum[kContact] : sum[kWall];
-    lap.search = sum[kSearch];
-    lap.full_search = sum[kFull];
-    lap.contact = sum[kContact];
+    repetition.wall = alone ? sum[kRest] + sum[kSearch] + sum[kContact] : sum[kWall];
+    repetition.search = sum[kSearch];
+    repetition.full_search = sum[kFull];
+    repetition.contact = sum[kContact];
   }
 
  private:

@@ -188,7 +188,7 @@ ExactSum external_work(const Domain& domain) {
 void conclude(Domain& domain) {
   const auto lap = domain.timer.measure(Phase::communication);
   domain.exchange.conclude(domain.state.clock, domain.state.signals);
-  judge_motion(domain);
+  record_received_motion(domain);
 }
 
 State closed_fields(const Domain& domain) {

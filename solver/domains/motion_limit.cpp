@@ -72,7 +72,7 @@ void note_motion(Domain& domain) {
 namespace {
 
 /// The furthest motion of a step is known from now on.
-void judge(Domain& domain, std::int64_t step, double length) {
+void record_length(Domain& domain, std::int64_t step, double length) {
   StepMotion& motion = domain.state.signals.step_motion;
   if (step >= 0 && motion.exceeded_step < 0 && exceeds(domain, step, length, motion.known)) {
     motion.exceeded_step = step;
@@ -84,7 +84,7 @@ void judge(Domain& domain, std::int64_t step, double length) {
 
 }  // namespace
 
-void judge_motion(Domain& domain) {
+void record_received_motion(Domain& domain) {
   if (!domain.contact) return;
   const Clock& clock = domain.state.clock;
   const Signals& signals = domain.state.signals;
@@ -93,16 +93,17 @@ void judge_motion(Domain& domain) {
   if (clock.steps > 0 && step <= signals.step_motion.known_step) return;
   const bool last = step == clock.steps - 1;
   const double length = signals.fastest * (clock.steps == 0 ? clock.dt : last ? clock.dt_before : clock.dt_earlier);
-  judge(domain, step, length);
+  record_length(domain, step, length);
 }
 
-void judge_motion_before_last(Domain& domain) {
+void record_motion_before_last(Domain& domain) {
   if (!domain.contact) return;
   const StepMotion& motion = domain.state.signals.step_motion;
   const std::int64_t step = domain.state.clock.steps - 2;
   if (step <= motion.known_step) return;
-  judge(domain, step,
-        step < 0 ? motion.own : motion.own_before);  // before the first step all move at their initial velocities
+  record_length(
+      domain, step,
+      step < 0 ? motion.own : motion.own_before);  // before the first step all move at their initial velocities
 }
 
 namespace {
@@ -142,7 +143,7 @@ void check_last_motion(Domain& domain) {
   if (!domain.contact || clock.steps == 0) return;
   const StepMotion& motion = domain.state.signals.step_motion;
   const double last = domain.exchange.communicator().max(motion.own);
-  if (clock.steps - 1 > motion.known_step) judge(domain, clock.steps - 1, last);
+  if (clock.steps - 1 > motion.known_step) record_length(domain, clock.steps - 1, last);
   if (motion.exceeded_step >= 0) refuse_motion(domain);
 }
 

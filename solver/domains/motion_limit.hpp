@@ -29,10 +29,10 @@ struct FastestNode {
 void note_motion(Domain& domain);
 
 /// After the largest speed of an earlier step has been received: whether a node exceeded the limit in it. O(1)
-void judge_motion(Domain& domain);
+void record_received_motion(Domain& domain);
 
 /// Where ranks are connected anew: the same for the step before the last of a state that was written before they knew.
-void judge_motion_before_last(Domain& domain);
+void record_motion_before_last(Domain& domain);
 
 /// At the start of a step: throws SimulationError, the same on all ranks, if a node exceeded the limit two steps ago.
 /// Collective if it throws.

@@ -194,7 +194,7 @@ void Partition::build(const Piece& piece, WholeModel whole, const Continuation& 
   if (communicator_.size() > 1)
     domain_->connect(communicator_, shared_slots(piece.neighbours, model_->mesh, model_->local),
                      pairwise ? ExchangeKind::pairwise : ExchangeKind::non_blocking);
-  judge_motion_before_last(*domain_);
+  record_motion_before_last(*domain_);
   time_step_ = std::make_unique<TimeStep>(*model_, rank_operations());
   if (stage_ != nullptr) {
     breccia::begin_stage(*domain_, stage_loads(*stage_, *model_), dt);

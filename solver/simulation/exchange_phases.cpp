@@ -63,7 +63,7 @@ void follow_couples(bool search, bool meets_others, Domain& domain) {
 void receive_signals(Domain& domain) {
   const auto lap = domain.timer.measure(Phase::communication);
   domain.exchange.finish_reduction(domain.state.clock, domain.state.signals);
-  judge_motion(domain);
+  record_received_motion(domain);
   check_motion(domain);
 }
 

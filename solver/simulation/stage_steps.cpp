@@ -78,7 +78,7 @@ double StageSteps::allowed() {
   if (input_.time.step > 0) return input_.time.step;
   const Clock& clock = partition_.state().clock;
   const double now = partition_.step_length(steps_to_look());
-  judge(now);
+  check_collapse(now);
   const double stable = input_.time.safety * now, most = kGrowth * clock.dt;
   if (clock.steps == 0 || stable <= most) return stable;
   schedule_.growth_steps = growth_steps;
@@ -87,7 +87,7 @@ double StageSteps::allowed() {
   return most;
 }
 
-void StageSteps::judge(double stable) {
+void StageSteps::check_collapse(double stable) {
   const Clock& clock = partition_.state().clock;
   const double share = stable / at_rest_;
   const bool ends = share < kSmallestStep;

@@ -70,7 +70,7 @@ class StageSteps {
   /// Stable steps to the next evaluation.
   [[nodiscard]] double steps_to_look() const;
   /// Notes a warning, or throws. Collective. @param stable  step, s
-  void judge(double stable);
+  void check_collapse(double stable);
 
   const case_::Case& input_;
   const case_::Stage& stage_;

@@ -240,12 +240,11 @@ TEST_F(Start, RefusesConstraintsThatContradictEachOtherOnAnyNumberOfRanks) {
   EXPECT_EQ(messages.size(), 1U) << *messages.begin() << "\n" << *messages.rbegin();
 }
 
-TEST_F(Start, WarnsOfAJointEntryThatStandsForNoGroup) {
+TEST_F(Start, RefusesAJointEntryThatStandsForNoGroup) {
   const std::string any = "[[joint]]\ngroup = \"*\"\npenalty_factor = 10\n";
   const Outcome with_any = attempt("any", started() + replaced(laws(), "[[contact]]", any + "[[contact]]") + kPush);
-  EXPECT_EQ(with_any.exit_code, 0) << with_any.err;
-  EXPECT_NE(with_any.err.find("joint.group: \"*\" stands for no group of the state"), std::string::npos)
-      << with_any.err;
+  EXPECT_EQ(with_any.exit_code, 2) << with_any.err;
+  EXPECT_NE(with_any.err.find("joint[1].group: stands for no group"), std::string::npos) << with_any.err;
   const Outcome used =
       attempt("used", started() + replaced(laws(), "[[joint]]\ngroup = \"box\"", "[[joint]]\ngroup = \"*\"") + kPush);
   EXPECT_EQ(used.exit_code, 0) << used.err;

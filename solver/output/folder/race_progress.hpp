@@ -10,7 +10,7 @@ namespace breccia {
 /// Where a race stands.
 struct RaceStatus {
   std::string doing;  ///< "on the way to the start", or who is running
-  double share = 0;   ///< 0..1 of what is being done: the way to the start, then all laps
+  double share = 0;   ///< 0..1 of what is being done: the way to the start, then all repetitions
   double wall_s = 0;  ///< since that began
 };
 

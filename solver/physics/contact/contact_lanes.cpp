@@ -160,7 +160,7 @@ void Pass::press_waiting() {
   filled_ = 0;
   for (const Waiting& waiting : waiting_) {
     if (waiting.lane >= 0) {
-      settle(waiting);
+      store_results(waiting);
     } else {
       add_force(*waiting.point, waiting.contactor, waiting.lambda, waiting.force);
     }
@@ -169,7 +169,7 @@ void Pass::press_waiting() {
 }
 
 /// Takes a couple out of the block. @pre no lane is filled
-void Pass::settle(const Waiting& waiting) {
+void Pass::store_results(const Waiting& waiting) {
   const auto lane = static_cast<std::size_t>(waiting.lane);
   const ContactPoint& point = *waiting.point;
   TouchingCouple& h = contact_.touching[lanes_[lane].touching];

@@ -161,7 +161,7 @@ class Pass {
   void place_lane(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
                   const std::array<double, 4>& depth);
   void press_waiting();
-  void settle(const Waiting& waiting);
+  void store_results(const Waiting& waiting);
   [[nodiscard]] double press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                              const Candidate& candidate, TouchingCouple& h);
   void balance(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
