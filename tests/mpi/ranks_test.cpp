@@ -40,7 +40,7 @@ TEST(Ranks, GiveTheSameBitsWhileBoxesBreakRubAndAreHeld) {
 
 TEST(Ranks, GiveTheSameBitsWhenTheModelIsDividedAgainAndAgain) {
   const Scratch scratch;
-  SameBits boxes(scratch.write("case.toml", test::changed("end = \"4 ms\"", "end = \"10 ms\"")));
+  SameBits boxes(scratch.write("case.toml", test::changed("end = \"4 ms\"", "end = \"6 ms\"")));
   EXPECT_GT(boxes.on(2, "--set domains.margin=0.1").at("decompositions"), 5);
   EXPECT_GT(boxes.on(3, "--set domains.margin=0.1").at("decompositions"), 5);
   EXPECT_GT(boxes.on(4, "--set domains.margin=0.1 --set detection.algorithm=ms").at("decompositions"), 5);
