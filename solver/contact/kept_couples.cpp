@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/index.hpp"
-#include "physics/contact/contact_couples.hpp"
+#include "physics/contact/couples.hpp"
 
 namespace breccia {
 

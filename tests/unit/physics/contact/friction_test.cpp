@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "base/types.hpp"
-#include "physics/contact/friction.hpp"
+#include "physics/contact/law/coulomb.hpp"
 
 namespace breccia::friction_test {
 namespace {

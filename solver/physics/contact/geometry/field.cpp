@@ -1,4 +1,4 @@
-#include "physics/contact/contact_field.hpp"
+#include "physics/contact/geometry/field.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "physics/contact/contact_law.hpp"
+#include "physics/contact/law/normal.hpp"
 
 namespace breccia {
 
 /// Overlap g (m) of a point inside a contactor, from its barycentric coordinates lambda.
 enum class OverlapField {
-  body,           ///< depth below the surface of a whole body, continuous through it (contact_field.hpp)
+  body,           ///< depth below the surface of a whole body, continuous through it (geometry/field.hpp)
   tet_potential,  ///< 4 H min(lambda). Source: [Munjiza 2004]
   tet_distance    ///< distance to the nearest face of the undeformed tetrahedron
 };

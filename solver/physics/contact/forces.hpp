@@ -7,8 +7,8 @@
 #include "discretisation/local_mesh.hpp"
 #include "discretisation/nodal_forces.hpp"
 #include "discretisation/nodal_state.hpp"
-#include "physics/contact/contact_params.hpp"
-#include "physics/contact/contact_state.hpp"
+#include "physics/contact/params.hpp"
+#include "physics/contact/state.hpp"
 #include "physics/sweep.hpp"
 
 namespace breccia {
@@ -36,7 +36,7 @@ struct ContactWork {
 /// vertex with the old one the history is kept. A new couple starts with offset = g if point and contactor share a mesh
 /// vertex or if fracture has just made it, else with 0, so that freeing a face makes no force.
 /// If a new couple is deeper than its point has moved inwards, the excess is its offset.
-/// Sides: in a body of ordinary finite elements g is the least of those sums (contact_field.hpp) whose side faces the
+/// Sides: in a body of ordinary finite elements g is the least of those sums (geometry/field.hpp) whose side faces the
 /// face of the point, with more than 96 degrees between the normals, or, without one, more than 90.6 (Facing in
 /// overlap.hpp): the corner of a block presses on the top of another up to its edge. A point just beside an edge in an
 /// element without such a side belongs to the nearest neighbour that has one, within a hundredth of its height. Without
@@ -44,7 +44,7 @@ struct ContactWork {
 /// Work and energy: each couple accumulates its energy gain, the work of its forces by central differences beyond the
 /// absorbed, stored and dissipated energy, without the effect of the rotation of a surface in a step: along one
 /// function of an element the law has a potential, and such errors cancel. A step in which the overlap begins or ends,
-/// or follows a curved law, leaves an error; a change of the normal force corrects it (contact_balance.hpp), before the
+/// or follows a curved law, leaves an error; a change of the normal force corrects it (correction.hpp), before the
 /// force ends if that can be predicted; for b > 1 the changed force may be tensile.
 /// After separation (d = 0) a small tensile force removes the energy that the contact gained numerically; a loss and
 /// the remaining gain are corrected in the next overlap of the point with the body, if it begins soon. When the

@@ -1,9 +1,9 @@
-#include "physics/contact/contact_couples.hpp"
+#include "physics/contact/couples.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "physics/contact/contact_field.hpp"
+#include "physics/contact/geometry/field.hpp"
 
 namespace breccia {
 

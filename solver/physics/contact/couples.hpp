@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "physics/contact/contact_params.hpp"
-#include "physics/contact/contact_state.hpp"
+#include "physics/contact/params.hpp"
+#include "physics/contact/state.hpp"
 
 namespace breccia {
 

@@ -1,0 +1,185 @@
+#pragma once
+
+// The kernels of block.hpp, included once by each translation unit kernel_<instruction set>.cpp and compiled for its
+// set, as the sweep is (sweep_kernel.hpp). Real: a SIMD vector, or double.
+
+#include <experimental/simd>
+
+#include <type_traits>
+
+#include "physics/contact/block.hpp"
+#include "physics/contact/evaluate.hpp"
+#include "physics/contact/geometry/tetra.hpp"
+#include "physics/lane_vector.hpp"
+
+namespace breccia {
+namespace {
+
+namespace stdx = std::experimental;
+
+using elasticity::select;
+using NativeReal = stdx::native_simd<double>;
+
+template <class Real>
+[[nodiscard]] constexpr std::size_t width() {
+  if constexpr (std::is_same_v<Real, double>) {
+    return 1;
+  } else {
+    return Real::size();
+  }
+}
+static_assert(kLanes % width<NativeReal>() == 0);
+
+/// The number of each of some lanes. @param number  of a lane, counted from the first of them
+template <class Real, class F>
+[[nodiscard]] inline Real of_lanes(F&& number) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return number(std::size_t{0});
+  } else {
+    return Real([&](auto l) { return number(std::size_t{l}); });
+  }
+}
+template <class M>
+[[nodiscard]] inline bool is_set(const M& mask, std::size_t lane) {
+  if constexpr (std::is_same_v<M, bool>) {
+    return mask;
+  } else {
+    return mask[lane];
+  }
+}
+
+/// Some couples of a block side by side.
+template <class Real>
+struct Some {
+  using Vector = VectorOf<Real>;
+  std::size_t first;
+
+  [[nodiscard]] Real load(const ContactRow& row) const {
+    if constexpr (std::is_same_v<Real, double>) {
+      return row[first];
+    } else {
+      return Real(&row.lane[first], stdx::element_aligned);
+    }
+  }
+  [[nodiscard]] Vector load(const ContactRow (&rows)[3]) const { return {load(rows[0]), load(rows[1]), load(rows[2])}; }
+  void store(const Real& value, ContactRow& row) const {
+    if constexpr (std::is_same_v<Real, double>) {
+      row[first] = value;
+    } else {
+      value.copy_to(&row.lane[first], stdx::element_aligned);
+    }
+  }
+  void store(const Vector& value, ContactRow (&rows)[3]) const {
+    store(value[0], rows[0]);
+    store(value[1], rows[1]);
+    store(value[2], rows[2]);
+  }
+  /// A node's vector out of a nodal field.
+  [[nodiscard]] Vector gather(const double* field, const Index (&node)[kLanes]) const {
+    const double* place[width<Real>()];
+    for (std::size_t l = 0; l < width<Real>(); ++l) place[l] = field + nodal(node[first + l], 0);
+    const auto component = [&](std::size_t axis) {
+      return of_lanes<Real>([&](std::size_t l) { return place[l][axis * kLanes]; });
+    };
+    return {component(0), component(1), component(2)};
+  }
+};
+
+/// Where the points of some couples are.
+template <class Real>
+inline void locate(LocateBlock& b, std::size_t first) {
+  const PreparedTetra* const* some = b.tetra + first;
+  const Some<Real> at{first};
+  PreparedTetraOf<Real> tetra;
+  std::array<Real, 3> x;
+  for (std::size_t i = 0; i < 3; ++i) {
+    tetra.origin[i] = of_lanes<Real>([&](std::size_t l) { return some[l]->origin[i]; });
+    for (std::size_t c = 0; c < 3; ++c)
+      tetra.gradient[c][i] = of_lanes<Real>([&](std::size_t l) { return some[l]->gradient[c][i]; });
+    x[i] = at.load(b.x[i]);
+  }
+  const std::array<Real, 4> lambda = barycentric(tetra, x);
+  const Real least =
+      elasticity::lesser(elasticity::lesser(lambda[0], lambda[1]), elasticity::lesser(lambda[2], lambda[3]));
+  const auto inert = !(tetra.gradient[0][0] == tetra.gradient[0][0]), inside = least >= -kInside, near = least >= -kGap;
+  for (std::size_t a = 0; a < 4; ++a) at.store(lambda[a], b.lambda[a]);
+  at.store(safe_travel(tetra, lambda, select(near, Real(kInside), Real(kGap))), b.safe);
+  for (std::size_t l = 0; l < width<Real>(); ++l) {
+    b.where[first + l] = is_set(inside, l)  ? Whereabouts::inside
+                         : is_set(near, l)  ? Whereabouts::beside
+                         : is_set(inert, l) ? Whereabouts::nowhere
+                                            : Whereabouts::outside;
+  }
+}
+
+/// How the points of some couples have moved in the last step.
+template <class Real>
+inline void move(double dt, const double* velocity, PairBlock& b, std::size_t first) {
+  using Vector = VectorOf<Real>;
+  using std::abs;
+  const Some<Real> at{first};
+  Vector relative = at.load(b.shape[0]) * at.gather(velocity, b.node[0]) +
+                    at.load(b.shape[1]) * at.gather(velocity, b.node[1]) +
+                    at.load(b.shape[2]) * at.gather(velocity, b.node[2]);
+  for (std::size_t a = 0; a < 4; ++a) relative -= at.load(b.lambda[a]) * at.gather(velocity, b.node[3 + a]);
+  const Vector motion = Real(dt) * relative;
+  Vector gradient{Real(0.0), Real(0.0), Real(0.0)};
+  const Real depth = at.load(b.depth[0]);
+  for (std::size_t c = 1; c < 4; ++c) gradient += (at.load(b.depth[c]) - depth) * at.load(b.lambda_gradient[c - 1]);
+  const Real change = at.load(b.overlap_before) - (at.load(b.history.d) * at.load(b.length) + at.load(b.history.offset));
+  const Real along = gradient.dot(motion);
+  const auto same = pair_step::any_component(motion) && abs(change - along) <= kSameSlope * motion.norm();
+  at.store(motion, b.motion);
+  at.store(gradient, b.gradient);
+  at.store(Real(along - change), b.turn);
+  for (std::size_t l = 0; l < width<Real>(); ++l) b.same_slope[first + l] = is_set(same, l) ? 1 : 0;
+}
+
+/// One step of some couples.
+template <class Real>
+inline void evaluate_some(double dt, PairBlock& b, std::size_t first) {
+  const Some<Real> at{first};
+  ContactPair<Real> pair;
+  for_each_law_number([&](Real& x, const ContactRow& row) { x = at.load(row); }, pair.law, b.law);
+  pair.weight = at.load(b.weight);
+  pair.length = at.load(b.length);
+  pair.overlap = at.load(b.overlap);
+  pair.overlap_before = at.load(b.overlap_before);
+  pair.motion = at.load(b.motion);
+  pair.gradient = at.load(b.gradient);
+  pair.turn = at.load(b.turn);
+  pair.longest_delay = at.load(b.longest_delay);
+  pair.rotation = at.load(b.rotation);
+  pair.continues = at.load(b.continues);
+  pair.held_by_old_law = at.load(b.held_by_old_law);
+  pair.damping_before = at.load(b.damping_before);
+  PairHistory<Real> h;
+  for_each_pair_number([&](const PairNumber&, auto& x, const ContactRow& row) { x = at.load(row); }, h, b.history);
+  const PairEnergies<Real> e = evaluate(pair, dt, h);
+  for_each_pair_number([&](const PairNumber&, const auto& x, ContactRow& row) { at.store(x, row); }, h, b.history);
+  at.store(e.stored, b.stored);
+  at.store(e.stored_in_spring, b.stored_in_spring);
+  at.store(e.lost, b.lost);
+  at.store(e.damped, b.damped);
+  at.store(e.rubbed, b.rubbed);
+}
+
+template <class Real>
+inline void locate_block(LocateBlock& block) {
+  for (std::size_t first = 0; first < kLanes; first += width<Real>()) locate<Real>(block, first);
+}
+template <class Real>
+inline void move_block(double dt, const double* velocity, PairBlock& block) {
+  for (std::size_t first = 0; first < kLanes; first += width<Real>()) move<Real>(dt, velocity, block, first);
+}
+template <class Real>
+inline void evaluate_block(double dt, PairBlock& block) {
+  for (std::size_t first = 0; first < kLanes; first += width<Real>()) evaluate_some<Real>(dt, block, first);
+}
+template <class Real>
+[[nodiscard]] inline ContactKernels contact_kernels() {
+  return {locate_block<Real>, move_block<Real>, evaluate_block<Real>};
+}
+
+}  // namespace
+}  // namespace breccia

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "physics/contact/block.hpp"
+#include "physics/contact/resolve.hpp"
+#include "physics/contact/view.hpp"
+
+/// For the sources of physics/contact alone.
+namespace breccia {
+
+/// Finds the contactors that points are in or just beside, several couples side by side. Couples that cannot touch yet
+/// are skipped.
+class Locator {
+ public:
+  Locator(ContactView& view, ContactState& contact, const ContactKernels& kernels)
+      : view_(view), contact_(contact), kernels_(kernels) {}
+
+  /// Calls use(point, couples whose contactor holds it, couples beside whose contactor it lies) for every point that
+  /// may touch something, by ascending ids; couples ascending.
+  template <class Use>
+  void for_each_point(Use&& use) {
+    ContactCouple* first = contact_.couples.data();
+    for (PointCouples& point : contact_.by_point) {
+      const std::span<ContactCouple> couples{first, at(point.count)};
+      if (!(contact_.travel < point.apart_until)) collect(point, couples);
+      if (located_.size() >= kMostLocated) use_located(use);
+      first += point.count;
+    }
+    use_located(use);
+  }
+
+ private:
+  /// Couples that are located before the first of their points is used: few, so that they remain in the cache.
+  static constexpr std::size_t kMostLocated = 64;
+
+  /// A couple and the position of its point.
+  struct Located {
+    Nearby here;
+    Whereabouts where;
+  };
+  /// A point, with its couples.
+  struct LocatedPoint {
+    PointCouples* point;
+    std::span<ContactCouple> couples;
+    std::size_t first;  ///< of its couples that are located
+  };
+
+  template <class Use>
+  void use_located(Use&& use) {
+    if (const std::size_t rest = located_.size() % kLanes; rest > 0) locate(located_.size() - rest);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      sort_out(points_[i].first, i + 1 < points_.size() ? points_[i + 1].first : located_.size());
+      use(points_[i].point->point, std::as_const(inside_), beside_);
+      update_bound(points_[i]);
+    }
+    points_.clear();
+    located_.clear();
+  }
+
+  void collect(PointCouples& point, std::span<ContactCouple> couples);
+  void locate(std::size_t first);
+  void sort_out(std::size_t first, std::size_t end);
+  static void update_bound(const LocatedPoint& located);
+
+  ContactView& view_;
+  ContactState& contact_;
+  const ContactKernels& kernels_;
+  LocateBlock block_;
+  std::vector<LocatedPoint> points_;  ///< a few, to be used next
+  std::vector<Located> located_;      ///< of these
+  std::vector<Nearby> inside_;        ///< of the point at hand, ascending: couples whose contactor holds it
+  std::vector<Nearby> beside_;        ///< likewise: it lies just outside
+};
+
+}  // namespace breccia
