@@ -5,7 +5,7 @@
 
 #include "base/index.hpp"
 #include "discretisation/blocks.hpp"
-#include "physics/contact/geometry/tetra.hpp"
+#include "physics/contact/elements.hpp"
 #include "physics/contact/history.hpp"
 #include "physics/contact/law/normal.hpp"
 
@@ -40,13 +40,12 @@ struct alignas(64) LocateBlock {
 /// Eight couples in contact, each with a law of its own: all that evaluate() reads and writes, in rows (AoSoA). Empty
 /// places are computed too and discarded.
 struct alignas(64) PairBlock {
-  // Where: the three nodes of the point's face and the four of the contactor.
-  Index node[7][kLanes] = {};
-  ContactRow shape[3], lambda[4];
-  ContactRow lambda_gradient[3][3];         ///< 1/m, of lambda_1..3
+  const StepElement* contactor[kLanes] = {};
+  const double* velocity[3][kLanes] = {};   ///< m/s, of the nodes of the point's face, three numbers each
+  ContactRow shape[3], lambda[4];           ///< of the point on its face and in the contactor
   ContactRow depth[4];                      ///< m, coefficients of the overlap function that counts
   ContactRow overlap, overlap_before;       ///< m, g by the field of now and of one step ago
-  ContactLawOf<ContactRow> law;             ///
+  ContactLawOf<ContactRow> law;
   ContactRow weight = 1.0, length = 1.0;    ///< m2 of the point; m, H of the contactor's body
   ContactRow longest_delay;                 ///< s
   ContactRow rotation[3];                   ///< rad, of the two elements in the mean
@@ -66,13 +65,17 @@ struct alignas(64) PairBlock {
 };
 
 using LocateKernel = void (*)(LocateBlock& block);
-/// Motion, gradient, turn and same_slope. @param velocity  nodal field, m/s;  @param dt  s
-using MotionKernel = void (*)(double dt, const double* velocity, PairBlock& block);
+/// All of eight elements but their forces. @param x, v  m, m/s, of their corners: [corner][axis][lane]
+/// @param volume  (kLanes) m3, at rest
+using PrepareKernel = void (*)(const double* x, const double* v, const double* volume, StepElement* elements);
+/// Motion, gradient, turn and same_slope. @param dt  s
+using MotionKernel = void (*)(double dt, PairBlock& block);
 /// One step of all couples of the block (evaluate.hpp).
 using EvaluateKernel = void (*)(double dt, PairBlock& block);
 
 /// Compiled for one instruction set, or for one couple after the other. All give the same bits.
 struct ContactKernels {
+  PrepareKernel prepare;
   LocateKernel locate;
   MotionKernel move;
   EvaluateKernel evaluate;

@@ -21,7 +21,7 @@ void EndedCouples::end(const TouchingCouple& old, double lost) {
   if (!(last.d > 0) && last.force == Vec3::Zero() && last.gained_before == 0 && last.delayed.age == 0) return;
   const ContactPoint& point = view_.point(old.point);
   const ContactPair<double> pair = view_.pair_of(old.point, old.contactor);
-  const PreparedTetra tetra = view_.prepare_past_contactor(old.contactor);
+  const PreparedTetra& tetra = view_.tetra_of(old.contactor);
   const bool crushed = inert(tetra), at_rest = lost == 0 && is_at_rest(last);
   const Vec3 place = view_.place_of(point);
   std::array<double, 4> lambda{};

@@ -40,10 +40,10 @@ void contact_forces(const ContactParams& params, const LocalMesh& local, const N
   work.stored = work.friction_stored = ExactSum{};
   work.touching = 0;
   spherical_boundary(params, local, state, dt, contact, forces, work.stored);
-  ContactView view(params, local, state, dt, contact);
+  ContactView view(params, local, state, dt, kernels, forces, contact);
   EndedCouples ended(view, contact, work);
   Resolver resolver(view, contact, ended);
-  PairQueue queue(view, resolver, ended, contact, forces, work, kernels);
+  PairQueue queue(view, resolver, ended, contact, work, kernels);
   Locator locator(view, contact, kernels);
   locator.for_each_point([&](Index point, std::span<const Nearby> inside, std::span<Nearby> beside) {
     const std::span<const Candidate> candidates = resolver.candidates(point, inside, beside);
@@ -53,6 +53,7 @@ void contact_forces(const ContactParams& params, const LocalMesh& local, const N
   resolver.finish();
   queue.push_forces_of_ended();
   queue.finish();
+  view.store_forces();
   contact.fresh.clear();
 }
 

@@ -39,6 +39,14 @@ template <class Real, class F>
     return Real([&](auto l) { return number(std::size_t{l}); });
   }
 }
+template <class Real>
+[[nodiscard]] inline double lane_of(const Real& value, std::size_t lane) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return value;
+  } else {
+    return value[lane];
+  }
+}
 template <class M>
 [[nodiscard]] inline bool is_set(const M& mask, std::size_t lane) {
   if constexpr (std::is_same_v<M, bool>) {
@@ -74,16 +82,46 @@ struct Some {
     store(value[1], rows[1]);
     store(value[2], rows[2]);
   }
-  /// A node's vector out of a nodal field.
-  [[nodiscard]] Vector gather(const double* field, const Index (&node)[kLanes]) const {
-    const double* place[width<Real>()];
-    for (std::size_t l = 0; l < width<Real>(); ++l) place[l] = field + nodal(node[first + l], 0);
+  /// @param vector  (axis, lane) components, counted from the first lane
+  template <class F>
+  [[nodiscard]] Vector gather(F&& vector) const {
     const auto component = [&](std::size_t axis) {
-      return of_lanes<Real>([&](std::size_t l) { return place[l][axis * kLanes]; });
+      return of_lanes<Real>([&](std::size_t l) { return vector(axis, first + l); });
     };
     return {component(0), component(1), component(2)};
   }
 };
+
+/// Some elements.
+template <class Real>
+inline void prepare(const double* x, const double* v, const double* volume, StepElement* elements, std::size_t first) {
+  using Vector = LaneVector<Real>;
+  const auto load = [first](const double* row) { return of_lanes<Real>([&](std::size_t l) { return row[first + l]; }); };
+  std::array<Vector, 4> corner, velocity;
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      corner[c][i] = load(x + (3 * c + i) * kLanes);
+      velocity[c][i] = load(v + (3 * c + i) * kLanes);
+    }
+  }
+  const PreparedTetraOf<Real> tetra = prepared_tetra<Real>(corner, load(volume));
+  Vector curl{Real(0.0), Real(0.0), Real(0.0)};
+  for (std::size_t c = 1; c < 4; ++c) {
+    const std::array<Real, 3>& row = tetra.gradient[c - 1];
+    curl += Vector{row[0], row[1], row[2]}.cross(velocity[c] - velocity[0]);
+  }
+  const auto inert = !(tetra.gradient[0][0] == tetra.gradient[0][0]);
+  for (std::size_t i = 0; i < 3; ++i) curl[i] = select(inert, Real(0.0), curl[i]);
+  for (std::size_t l = 0; l < width<Real>(); ++l) {
+    StepElement& element = elements[first + l];
+    for (std::size_t i = 0; i < 3; ++i) {
+      element.tetra.origin[i] = lane_of(tetra.origin[i], l);
+      for (std::size_t c = 0; c < 3; ++c) element.tetra.gradient[c][i] = lane_of(tetra.gradient[c][i], l);
+      for (std::size_t c = 0; c < 4; ++c) element.velocity[c][i] = v[(3 * c + i) * kLanes + first + l];
+      element.curl[i] = lane_of(curl[i], l);
+    }
+  }
+}
 
 /// Where the points of some couples are.
 template <class Real>
@@ -114,18 +152,26 @@ inline void locate(LocateBlock& b, std::size_t first) {
 
 /// How the points of some couples have moved in the last step.
 template <class Real>
-inline void move(double dt, const double* velocity, PairBlock& b, std::size_t first) {
+inline void move(double dt, PairBlock& b, std::size_t first) {
   using Vector = VectorOf<Real>;
   using std::abs;
   const Some<Real> at{first};
-  Vector relative = at.load(b.shape[0]) * at.gather(velocity, b.node[0]) +
-                    at.load(b.shape[1]) * at.gather(velocity, b.node[1]) +
-                    at.load(b.shape[2]) * at.gather(velocity, b.node[2]);
-  for (std::size_t a = 0; a < 4; ++a) relative -= at.load(b.lambda[a]) * at.gather(velocity, b.node[3 + a]);
+  const auto face = [&](std::size_t i) {
+    return at.gather([&](std::size_t axis, std::size_t l) { return b.velocity[i][l][axis]; });
+  };
+  const auto corner = [&](std::size_t a) {
+    return at.gather([&](std::size_t axis, std::size_t l) { return b.contactor[l]->velocity[a][axis]; });
+  };
+  Vector relative = at.load(b.shape[0]) * face(0) + at.load(b.shape[1]) * face(1) + at.load(b.shape[2]) * face(2);
+  for (std::size_t a = 0; a < 4; ++a) relative -= at.load(b.lambda[a]) * corner(a);
   const Vector motion = Real(dt) * relative;
   Vector gradient{Real(0.0), Real(0.0), Real(0.0)};
   const Real depth = at.load(b.depth[0]);
-  for (std::size_t c = 1; c < 4; ++c) gradient += (at.load(b.depth[c]) - depth) * at.load(b.lambda_gradient[c - 1]);
+  for (std::size_t c = 0; c < 3; ++c) {
+    gradient += (at.load(b.depth[c + 1]) - depth) * at.gather([&](std::size_t axis, std::size_t l) {
+                  return b.contactor[l]->tetra.gradient[c][axis];
+                });
+  }
   const Real change = at.load(b.overlap_before) - (at.load(b.history.d) * at.load(b.length) + at.load(b.history.offset));
   const Real along = gradient.dot(motion);
   const auto same = pair_step::any_component(motion) && abs(change - along) <= kSameSlope * motion.norm();
@@ -169,8 +215,12 @@ inline void locate_block(LocateBlock& block) {
   for (std::size_t first = 0; first < kLanes; first += width<Real>()) locate<Real>(block, first);
 }
 template <class Real>
-inline void move_block(double dt, const double* velocity, PairBlock& block) {
-  for (std::size_t first = 0; first < kLanes; first += width<Real>()) move<Real>(dt, velocity, block, first);
+inline void prepare_block(const double* x, const double* v, const double* volume, StepElement* elements) {
+  for (std::size_t first = 0; first < kLanes; first += width<Real>()) prepare<Real>(x, v, volume, elements, first);
+}
+template <class Real>
+inline void move_block(double dt, PairBlock& block) {
+  for (std::size_t first = 0; first < kLanes; first += width<Real>()) move<Real>(dt, block, first);
 }
 template <class Real>
 inline void evaluate_block(double dt, PairBlock& block) {
@@ -178,7 +228,7 @@ inline void evaluate_block(double dt, PairBlock& block) {
 }
 template <class Real>
 [[nodiscard]] inline ContactKernels contact_kernels() {
-  return {locate_block<Real>, move_block<Real>, evaluate_block<Real>};
+  return {prepare_block<Real>, locate_block<Real>, move_block<Real>, evaluate_block<Real>};
 }
 
 }  // namespace

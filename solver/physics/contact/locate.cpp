@@ -1,19 +1,30 @@
 #include "physics/contact/locate.hpp"
 
 #include <algorithm>
-#include <limits>
+
+#include "physics/contact/couples.hpp"
 
 namespace breccia {
 
-/// Locates a point in its contactors.
-void Locator::collect(PointCouples& point, std::span<ContactCouple> couples) {
-  const Vec3 x = view_.place_of(view_.point(point.point));
-  points_.push_back({&point, couples, located_.size()});
-  for (ContactCouple& couple : couples) {
+/// For some steps, if they are as long as the last one.
+void Locator::wake() {
+  constexpr double kSteps = 16;
+  wake_couples(kSteps * std::max(0.0, contact_.travel - contact_.travel_before), contact_);
+}
+
+/// Locates a point in its contactors. @param couples  of one point
+void Locator::collect(std::span<AwakeCouple> couples) {
+  const std::size_t before = located_.size();
+  Vec3 x = Vec3::Zero();
+  for (AwakeCouple& couple : couples) {
     if (contact_.travel < couple.apart_until) continue;
     const std::size_t lane = located_.size() % kLanes;
+    if (located_.size() == before) {
+      points_.push_back({couple.point, before});
+      x = view_.place_of(view_.point(couple.point));
+    }
     located_.emplace_back().here.couple = &couple;
-    block_.tetra[lane] = &view_.prepare_contactor(couple.contactor);
+    block_.tetra[lane] = &view_.tetra_of(couple.contactor);
     for (std::size_t axis = 0; axis < 3; ++axis) block_.x[axis][lane] = x[static_cast<Eigen::Index>(axis)];
     if (lane + 1 == kLanes) locate(located_.size() - kLanes);
   }
@@ -52,12 +63,6 @@ void Locator::sort_out(std::size_t first, std::size_t end) {
         break;
     }
   }
-}
-
-void Locator::update_bound(const LocatedPoint& located) {
-  double& apart_until = located.point->apart_until;
-  apart_until = std::numeric_limits<double>::infinity();
-  for (const ContactCouple& couple : located.couples) apart_until = std::min(apart_until, couple.apart_until);
 }
 
 }  // namespace breccia

@@ -23,14 +23,15 @@ class Locator {
   /// may touch something, by ascending ids; couples ascending.
   template <class Use>
   void for_each_point(Use&& use) {
-    ContactCouple* first = contact_.couples.data();
-    for (PointCouples& point : contact_.by_point) {
-      const std::span<ContactCouple> couples{first, at(point.count)};
-      if (!(contact_.travel < point.apart_until)) collect(point, couples);
+    if (!(contact_.travel < contact_.awake_until)) wake();
+    const std::span<AwakeCouple> awake{contact_.awake};
+    for (std::size_t first = 0, end = 0; first < awake.size(); first = end) {
+      for (end = first + 1; end < awake.size() && awake[end].point == awake[first].point; ++end) continue;
+      collect(awake.subspan(first, end - first));
       if (located_.size() >= kMostLocated) use_located(use);
-      first += point.count;
     }
     use_located(use);
+    contact_.travel_before = contact_.travel;
   }
 
  private:
@@ -44,8 +45,7 @@ class Locator {
   };
   /// A point, with its couples.
   struct LocatedPoint {
-    PointCouples* point;
-    std::span<ContactCouple> couples;
+    Index point;
     std::size_t first;  ///< of its couples that are located
   };
 
@@ -54,17 +54,16 @@ class Locator {
     if (const std::size_t rest = located_.size() % kLanes; rest > 0) locate(located_.size() - rest);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       sort_out(points_[i].first, i + 1 < points_.size() ? points_[i + 1].first : located_.size());
-      use(points_[i].point->point, std::as_const(inside_), beside_);
-      update_bound(points_[i]);
+      use(points_[i].point, std::as_const(inside_), beside_);
     }
     points_.clear();
     located_.clear();
   }
 
-  void collect(PointCouples& point, std::span<ContactCouple> couples);
+  void wake();
+  void collect(std::span<AwakeCouple> couples);
   void locate(std::size_t first);
   void sort_out(std::size_t first, std::size_t end);
-  static void update_bound(const LocatedPoint& located);
 
   ContactView& view_;
   ContactState& contact_;

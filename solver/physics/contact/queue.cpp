@@ -38,10 +38,14 @@ void PairQueue::push(Index point, const Candidate& candidate, std::size_t place)
   waiting_.push_back({.lane = static_cast<std::ptrdiff_t>(lane)});
   fill_place(view_.point(point), candidate, lane);
   fill_laws(point, candidate, lane);
-  PairHistory<double> h = history_before(candidate);
-  h.gained_before += candidate.gained;
   const auto put_number = [lane](const PairNumber&, const double& x, ContactRow& row) { row[lane] = x; };
-  for_each_pair_number(put_number, h, block_.history);
+  if (candidate.old >= 0) {
+    for_each_pair_number(put_number, contact_.touching_before[at(candidate.old)].history, block_.history);
+  } else {
+    const PairHistory<double> fresh{.delayed = candidate.delayed};
+    for_each_pair_number(put_number, fresh, block_.history);
+  }
+  block_.history.gained_before[lane] += candidate.gained;
   if (filled_ == lanes_.size()) evaluate();
 }
 
@@ -65,17 +69,19 @@ PairHistory<double> PairQueue::history_before(const Candidate& candidate) const 
   return {.delayed = candidate.delayed};
 }
 
+void PairQueue::add_force(const KnownForce& known) {
+  view_.add_force(view_.point(known.point), known.contactor, known.lambda, known.force);
+}
+
 void PairQueue::fill_place(const ContactPoint& point, const Candidate& candidate, std::size_t lane) {
   const std::array<double, 3>& shape = view_.shape_at(point);
-  const PreparedTetra& tetra = view_.prepared(candidate.contactor);
+  const StepElement& target = view_.element(point.slot);
   for (std::size_t i = 0; i < 3; ++i) {
-    block_.node[i][lane] = point.nodes[i];
     block_.shape[i][lane] = shape[i];
-    for (std::size_t axis = 0; axis < 3; ++axis) block_.lambda_gradient[i][axis][lane] = tetra.gradient[i][axis];
+    block_.velocity[i][lane] = target.velocity[kFaceCorners[at(point.face)][i]];
   }
-  const Index slot = view_.slot_of(candidate.contactor);
+  block_.contactor[lane] = &view_.element(view_.slot_of(candidate.contactor));
   for (std::size_t a = 0; a < 4; ++a) {
-    block_.node[3 + a][lane] = view_.local().corner_node(slot, static_cast<int>(a));
     block_.lambda[a][lane] = candidate.lambda[a];
     block_.depth[a][lane] = candidate.depth[a];
   }
@@ -104,7 +110,11 @@ void PairQueue::fill_laws(Index index, const Candidate& candidate, std::size_t l
 
 /// Evaluates the block, and adds all forces in the order in which they came.
 void PairQueue::evaluate() {
-  kernels_.move(view_.dt(), view_.nodes().velocity.data(), block_);
+  for (std::size_t lane = filled_; lane < lanes_.size(); ++lane) {
+    block_.contactor[lane] = block_.contactor[0];
+    for (auto& node : block_.velocity) node[lane] = node[0];
+  }
+  kernels_.move(view_.dt(), block_);
   for (std::size_t lane = 0; lane < filled_; ++lane) {
     adjust(lane);
     lanes_[lane].offset = block_.history.offset[lane];
@@ -174,7 +184,7 @@ void PairQueue::take_results(std::size_t lane) {
     force = ended_.pull(view_.pair_of(index, candidate.contactor), last, vector_of(block_.motion, lane), h);
     if (force == Vec3::Zero()) return;
   }
-  add_force({index, candidate.contactor, candidate.lambda, force});
+  view_.add_force(point, candidate.contactor, candidate.lambda, force);
 }
 
 /// The overlap has ended although the point is in the contactor: its field has changed. The couple ends by the law and on
@@ -211,19 +221,6 @@ void PairQueue::sort_disordered() {
     sort_by_contactor(std::span(touching).subspan(first, end - first));
   }
   std::erase_if(touching, [](const TouchingCouple& couple) { return couple.contactor == kRemoved; });
-}
-
-void PairQueue::add_force(const KnownForce& known) {
-  const ContactPoint& point = view_.point(known.point);
-  const std::array<double, 3>& shape = view_.shape_at(point);
-  const std::array<double*, 3> target = forces_.places(point.nodes);
-  for (std::size_t i = 0; i < 3; ++i) NodalForces::add(target[i], shape[i], known.force);
-  const LocalMesh& local = view_.local();
-  const Index slot = view_.slot_of(known.contactor);
-  const std::array<double*, 4> corners = slot < local.num_own_slots
-                                             ? forces_.own_places(own_corner_node(slot, 0))
-                                             : forces_.places(local.shared_corners[at(slot - local.num_own_slots)]);
-  for (std::size_t a = 0; a < 4; ++a) NodalForces::add(corners[a], -known.lambda[a], known.force);
 }
 
 }  // namespace breccia

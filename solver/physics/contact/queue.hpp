@@ -17,12 +17,11 @@ namespace breccia {
 class PairQueue {
  public:
   PairQueue(ContactView& view, const Resolver& resolver, EndedCouples& ended, ContactState& contact,
-            NodalForces& forces, ContactWork& work, const ContactKernels& kernels)
+            ContactWork& work, const ContactKernels& kernels)
       : view_(view),
         resolver_(resolver),
         ended_(ended),
         contact_(contact),
-        forces_(forces),
         work_(work),
         kernels_(kernels) {}
 
@@ -63,7 +62,6 @@ class PairQueue {
   const Resolver& resolver_;
   EndedCouples& ended_;
   ContactState& contact_;
-  NodalForces& forces_;
   ContactWork& work_;
   const ContactKernels& kernels_;
   PairBlock block_;

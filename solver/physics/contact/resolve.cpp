@@ -25,7 +25,7 @@ Candidate Resolver::candidate_of(const ContactPoint& point, Index contactor,
     return {contactor, lambda, kAllRows, least.row, least.g, least.g};
   }
   const OverlapShape& shape = view_.shape_of(contactor);
-  const OverlapRows rows = view_.rows_of(point, contactor, shape, view_.prepared(contactor));
+  const OverlapRows rows = view_.rows_of(point, contactor, shape, view_.tetra_of(contactor));
   const std::size_t least = least_row(shape, lambda, rows);
   const double g = row_value(shape, least, lambda);
   Candidate candidate{contactor, lambda, rows, shape.row[least], g, g};
@@ -75,7 +75,7 @@ void Resolver::bridge_gaps(Index point, std::span<Nearby> beside) {
 Facing Resolver::side_over(const ContactPoint& point, const Nearby& here) const {
   const Index contactor = here.couple->contactor;
   const OverlapShape& shape = view_.shape_of(contactor);
-  const FacingRows most = rows_facing(shape, view_.prepared(contactor), view_.outward_of(point));
+  const FacingRows most = rows_facing(shape, view_.tetra_of(contactor), view_.outward_of(point));
   return most.rows != 0 && overlap_value(shape, here.lambda, most.rows) > 0 ? most.facing : Facing::away;
 }
 
@@ -88,7 +88,7 @@ const Nearby* Resolver::facing_more(const ContactPoint& point, std::span<const N
     // Most surfaces of debris have no distinguished sides.
     if (!view_.has_sides(contactor) || !view_.are_neighbours(contactor, candidate)) continue;
     if (!most)
-      most = rows_facing(view_.shape_of(candidate), view_.prepared(candidate), view_.outward_of(point)).facing;
+      most = rows_facing(view_.shape_of(candidate), view_.tetra_of(candidate), view_.outward_of(point)).facing;
     if (best == nullptr && *most == Facing::well) return nullptr;
     const Facing facing = side_over(point, here);
     const bool nearer = best != nullptr && facing == *most && smallest(here.lambda) > smallest(best->lambda);
@@ -199,7 +199,7 @@ Adjusted Resolver::adjust(Index point, const Candidate& candidate, const PairHis
 Vec3 Resolver::gradient_before(const Candidate& candidate, const Vec3& gradient) const {
   if (!view_.is_growing(candidate.contactor)) return gradient;
   const OverlapShape& shape = view_.shape_of(candidate.contactor, Instant::step_before);
-  return overlap(shape, view_.prepared(candidate.contactor), candidate.lambda, candidate.rows).gradient;
+  return overlap(shape, view_.tetra_of(candidate.contactor), candidate.lambda, candidate.rows).gradient;
 }
 
 /// The overlap is the least of several functions, and of other ones in the next element: where the point has passed
@@ -254,7 +254,7 @@ bool Resolver::comes_from_beside(const ContactPoint& point, const Candidate& can
   if (motion == Vec3::Zero()) return false;
   const OverlapShape& shape = view_.shape_of(candidate.contactor, Instant::step_before);
   const std::size_t least = least_row(shape, candidate.lambda, candidate.rows);
-  const Vec3 inward = side_gradient(shape, least, view_.prepared(candidate.contactor));
+  const Vec3 inward = side_gradient(shape, least, view_.tetra_of(candidate.contactor));
   if (facing(view_.outward_of(point), inward) == Facing::away) return true;
   const std::array<double, 4>& depth = shape.row[least];
   const double g = row_value(shape, least, candidate.lambda);

@@ -14,7 +14,7 @@ namespace breccia {
 
 /// A couple of the point at hand whose point lies in the contactor or just beside it.
 struct Nearby {
-  ContactCouple* couple;
+  AwakeCouple* couple;
   std::array<double, 4> lambda;
   double safe;  ///< m, as in LocateBlock
 };

@@ -13,6 +13,7 @@
 #include "physics/contact/geometry/point.hpp"
 #include "physics/contact/history.hpp"
 #include "physics/number_vector.hpp"
+#include "physics/contact/elements.hpp"
 #include "physics/contact/geometry/overlap.hpp"
 
 namespace breccia {
@@ -30,7 +31,14 @@ struct ContactCouple {
 struct PointCouples {
   Index point;
   Index count;
-  double apart_until;  ///< m: the smallest of these couples
+  double apart_until;  ///< m: no more than the smallest of these couples
+};
+
+/// A couple that may come to matter within the next steps, apart from the others, which are many more.
+struct AwakeCouple {
+  Index couple;  ///< index into ContactState::couples
+  Index point, contactor;
+  double apart_until;  ///< m, of the couple, brought up to date here
 };
 
 /// A couple that touches, with its history. It lives as long as the overlap: a point that slides into a neighbouring
@@ -67,12 +75,6 @@ using ComingSets = std::array<Index, kNumCornerSets>;
 struct FieldRamp {
   Index contactor = 0;
   ComingSets remaining{}, before{};
-};
-
-/// How an element turns.
-struct ElementTurn {
-  Vec3 curl{0, 0, 0};    ///< 1/s, of its velocities
-  std::uint64_t in = 0;  ///< number of the call of contact_forces, as in `prepared_in`
 };
 
 /// Force of the spherical boundary on a point.
@@ -112,14 +114,14 @@ struct ContactState {
   std::vector<BoundaryForce> boundary;   ///< by point id
   std::vector<double> boundary_offset;  ///< (points) m outside the sphere without force: where the point was first seen
 
+  // Derived from the couples (couples.hpp).
+  std::vector<AwakeCouple> awake;  ///< by (point id, contactor): all whose apart_until is less than awake_until
+  double awake_until = -std::numeric_limits<double>::infinity();  ///< m: while `travel` is less the list is complete
+  double travel_before = 0;                                       ///< m, in the last step
+
   // Scratch, worth keeping only for its storage.
   std::vector<TouchingCouple> touching_before;
-  std::vector<PreparedTetra> prepared;
-  std::vector<std::uint64_t> prepared_in;  ///< (prepared) number of the call of contact_forces, from 1
-  std::uint64_t calls = 0;                 ///< of contact_forces
-  std::vector<Index> place;                ///< (contactors) index into `prepared`, -1: not in any couple
-  std::vector<Index> in_couples;           ///< (prepared) contactors that are in some couple
-  std::vector<ElementTurn> turns;          ///< (num_slots) of those that rub, in this step
+  StepElements elements;
 
   [[nodiscard]] bool evaluated(Index slot) const {
     return relevant.empty() || relevant[static_cast<std::size_t>(slot)] != 0;

@@ -9,20 +9,32 @@ bool share_vertex(const LocalMesh& local, Index slot, Index other) {
   return std::any_of(a.begin(), a.end(), [&](Index v) { return std::find(b.begin(), b.end(), v) != b.end(); });
 }
 
+constexpr std::size_t kCorners = std::size_t{12} * kLanes;  // numbers of a block in a nodal field
+
+/// @param from  [corner][axis][lane], or null: nothing acts on them
+void load_forces(const double* from, StepElements::Block& elements) {
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t lane = 0; lane < elements.size(); ++lane)
+        elements[lane].force[c][i] = from == nullptr ? 0.0 : from[(3 * c + i) * kLanes + lane];
+    }
+  }
+}
+
 }  // namespace
 
 ContactView::ContactView(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
-                         ContactState& contact)
+                         const ContactKernels& kernels, NodalForces& forces, ContactState& contact)
     : params_(params),
       local_(local),
       state_(state),
       dt_(dt),
+      kernels_(kernels),
+      forces_(forces),
       contact_(contact),
       rule_(face_rule(params.points_per_face)) {
-  ++contact.calls;
-  contact.prepared.resize(contact.in_couples.size());
-  contact.prepared_in.resize(contact.in_couples.size(), 0);
-  contact.turns.resize(at(local.num_slots));
+  ++contact.elements.step;
+  contact.elements.used.clear();
 }
 
 const ContactLaw& ContactView::law_of(Index index, Index contactor) const {
@@ -51,24 +63,9 @@ Vec3 ContactView::relative_motion(const ContactPoint& point, Index contactor,
   return dt_ * relative;
 }
 
-/// Of an element's velocities, 1/s; 0 of an inert one. An element is in many couples: once a step.
-const Vec3& ContactView::curl_of(Index slot) {
-  ElementTurn& turn = contact_.turns[at(slot)];
-  if (turn.in == contact_.calls) return turn.curl;
-  turn = {Vec3::Zero(), contact_.calls};
-  const Index contactor = contact_.contactor_of_slot[at(slot)];
-  const PreparedTetra tetra = contactor >= 0 ? prepare_past_contactor(contactor) : prepare_element(slot);
-  if (inert(tetra)) return turn.curl;
-  const std::array<Vec3, 4> v = load_corners(local_, state_.velocity.data(), slot);
-  for (std::size_t c = 1; c < 4; ++c) {
-    const std::array<double, 3>& row = tetra.gradient[c - 1];
-    turn.curl += Vec3(row[0], row[1], row[2]).cross(v[c] - v[0]);
-  }
-  return turn.curl;
-}
-
 Vec3 ContactView::mean_rotation(const ContactPoint& point, Index contactor) {
-  return 0.25 * dt_ * (curl_of(point.slot) + curl_of(slot_of(contactor)));
+  const auto curl = [&](Index slot) { return Vec3(Eigen::Map<const Vec3>(element(slot).curl)); };
+  return 0.25 * dt_ * (curl(point.slot) + curl(slot_of(contactor)));
 }
 
 Vec3 ContactView::outward_of(const ContactPoint& point, double dt) const {
@@ -78,22 +75,77 @@ Vec3 ContactView::outward_of(const ContactPoint& point, double dt) const {
   });
 }
 
-PreparedTetra ContactView::prepare_element(Index slot) const {
-  return prepare(load_corners(local_, state_.position.data(), slot), local_.volume[at(slot)]);
-}
-
-const PreparedTetra& ContactView::prepare_contactor(Index contactor) {
-  const std::size_t place = at(contact_.place[at(contactor)]);
-  if (contact_.prepared_in[place] != contact_.calls) {
-    contact_.prepared_in[place] = contact_.calls;
-    contact_.prepared[place] = prepare_element(slot_of(contactor));
+StepElements::Block& ContactView::prepare_block(Index block) {
+  StepElements& all = contact_.elements;
+  Index& place = all.place[at(block)];
+  if (place < 0) {
+    place = static_cast<Index>(all.blocks.size());
+    all.blocks.emplace_back();
+    all.prepared_in.push_back(0);
+    all.acted_in.push_back(0);
   }
-  return contact_.prepared[place];
+  all.prepared_in[at(place)] = all.step;
+  all.used.push_back(block);
+  StepElements::Block& elements = all.blocks[at(place)];
+  const double *x = state_.position.data(), *v = state_.velocity.data(),
+               *volume = local_.volume.data() + at(block) * kLanes;
+  if (block < local_.num_own_blocks()) {
+    kernels_.prepare(x + at(block) * kCorners, v + at(block) * kCorners, volume, elements.data());
+    load_forces(forces_.block(block), elements);
+    return elements;
+  }
+  alignas(64) std::array<double, kCorners> corners{}, velocities{};
+  for (Index lane = 0; lane < kLanes; ++lane) {
+    const Index slot = block * kLanes + lane;
+    if (local_.element_of_slot[at(slot)] < 0) continue;
+    for (int c = 0; c < 4; ++c) {
+      for (int i = 0; i < 3; ++i) {
+        const std::size_t from = nodal(local_.corner_node(slot, c), i), to = at((3 * c + i) * kLanes + lane);
+        corners[to] = x[from];
+        velocities[to] = v[from];
+      }
+    }
+  }
+  kernels_.prepare(corners.data(), velocities.data(), volume, elements.data());
+  return elements;
 }
 
-PreparedTetra ContactView::prepare_past_contactor(Index contactor) {
-  const bool in_couples = contact_.place[at(contactor)] >= 0;
-  return in_couples ? prepare_contactor(contactor) : prepare_element(slot_of(contactor));
+void ContactView::add_force(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
+                            const Vec3& force) {
+  const std::array<double, 3>& shape = shape_at(point);
+  const auto add = [&force](double(&to)[3], double factor) {
+    for (std::size_t i = 0; i < 3; ++i) to[i] += factor * force[static_cast<Eigen::Index>(i)];
+  };
+  if (point.slot < local_.num_own_slots) {
+    StepElement& target = element_to_act_on(point.slot);
+    for (std::size_t i = 0; i < 3; ++i) add(target.force[kFaceCorners[at(point.face)][i]], shape[i]);
+  } else {
+    const std::array<double*, 3> nodes = forces_.places(point.nodes);
+    for (std::size_t i = 0; i < 3; ++i) NodalForces::add(nodes[i], shape[i], force);
+  }
+  const Index slot = slot_of(contactor);
+  if (slot < local_.num_own_slots) {
+    StepElement& other = element_to_act_on(slot);
+    for (std::size_t a = 0; a < 4; ++a) add(other.force[a], -lambda[a]);
+  } else {
+    const std::array<double*, 4> nodes = forces_.places(local_.shared_corners[at(slot - local_.num_own_slots)]);
+    for (std::size_t a = 0; a < 4; ++a) NodalForces::add(nodes[a], -lambda[a], force);
+  }
+}
+
+void ContactView::store_forces() {
+  const StepElements& all = contact_.elements;
+  for (const Index block : all.used) {
+    const Index place = all.place[at(block)];
+    if (all.acted_in[at(place)] != all.step) continue;
+    const StepElements::Block& elements = all.blocks[at(place)];
+    double* to = forces_.acted_block(block);
+    for (std::size_t c = 0; c < 4; ++c) {
+      for (std::size_t i = 0; i < 3; ++i, to += kLanes) {
+        for (std::size_t lane = 0; lane < elements.size(); ++lane) to[lane] = elements[lane].force[c][i];
+      }
+    }
+  }
 }
 
 const OverlapShape& ContactView::shape_of(Index contactor, Instant instant) const {

@@ -4,7 +4,10 @@
 #include <array>
 #include <cstddef>
 
+#include "base/exact_sum.hpp"
 #include "base/index.hpp"
+#include "discretisation/nodal_forces.hpp"
+#include "physics/contact/block.hpp"
 #include "physics/contact/evaluate.hpp"
 #include "physics/contact/geometry/field.hpp"
 #include "physics/number_vector.hpp"
@@ -20,7 +23,11 @@ class ContactView {
  public:
   /// @param dt  s, from t_(n-1) to t_n. All arguments outlive this object; of `contact` only scratch is written
   ContactView(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
-              ContactState& contact);
+              const ContactKernels& kernels, NodalForces& forces, ContactState& contact);
+  /// Adds a force on a point, N, to the nodes of its face, and its reaction to those of the contactor.
+  void add_force(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda, const Vec3& force);
+  /// Stores the forces of all elements. To be called once, at the end of the step.
+  void store_forces();
 
   [[nodiscard]] const ContactParams& params() const { return params_; }
   [[nodiscard]] const LocalMesh& local() const { return local_; }
@@ -62,15 +69,14 @@ class ContactView {
   /// Normal of a point's face. @param dt  s, by which the nodes are moved back
   [[nodiscard]] Vec3 outward_of(const ContactPoint& point, double dt = 0) const;
 
-  [[nodiscard]] PreparedTetra prepare_element(Index slot) const;
-  /// Prepares the contactor if that has not been done in this step.
-  const PreparedTetra& prepare_contactor(Index contactor);
-  /// Of a contactor that may have left all couples with a search in this step.
-  [[nodiscard]] PreparedTetra prepare_past_contactor(Index contactor);
-  /// @pre prepare_contactor() has been called in this step
-  [[nodiscard]] const PreparedTetra& prepared(Index contactor) const {
-    return contact_.prepared[at(contact_.place[at(contactor)])];
+  /// The element of a slot in this step, prepared on its first use.
+  [[nodiscard]] StepElement& element(Index slot) {
+    StepElements& all = contact_.elements;
+    const Index place = all.place[at(slot / kLanes)];
+    if (place < 0 || all.prepared_in[at(place)] != all.step) return prepare_block(slot / kLanes)[at(slot % kLanes)];
+    return all.blocks[at(place)][at(slot % kLanes)];
   }
+  [[nodiscard]] const PreparedTetra& tetra_of(Index contactor) { return element(slot_of(contactor)).tetra; }
 
   /// Whether the overlap field of a contactor changes in this step.
   [[nodiscard]] bool is_growing(Index contactor) const { return contact_.ramp_of_contactor[at(contactor)] >= 0; }
@@ -96,12 +102,19 @@ class ContactView {
 
  private:
   [[nodiscard]] Index group_of(Index slot) const { return local_.block_group[at(slot / kLanes)]; }
-  [[nodiscard]] const Vec3& curl_of(Index slot);
+  StepElements::Block& prepare_block(Index block);
+  [[nodiscard]] StepElement& element_to_act_on(Index slot) {
+    StepElement& acted = element(slot);
+    contact_.elements.acted_in[at(contact_.elements.place[at(slot / kLanes)])] = contact_.elements.step;
+    return acted;
+  }
 
   const ContactParams& params_;
   const LocalMesh& local_;
   const NodalState& state_;
   double dt_;
+  const ContactKernels& kernels_;
+  NodalForces& forces_;
   ContactState& contact_;
   const FaceRule& rule_;
 
