@@ -6,6 +6,7 @@
 #include "base/index.hpp"
 #include "discretisation/blocks.hpp"
 #include "physics/contact/elements.hpp"
+#include "physics/contact/evaluate.hpp"
 #include "physics/contact/history.hpp"
 #include "physics/contact/law/normal.hpp"
 
@@ -71,7 +72,7 @@ using PrepareKernel = void (*)(const double* x, const double* v, const double* v
 /// Motion, gradient, turn and same_slope. @param dt  s
 using MotionKernel = void (*)(double dt, PairBlock& block);
 /// One step of all couples of the block (evaluate.hpp).
-using EvaluateKernel = void (*)(double dt, PairBlock& block);
+using EvaluateKernel = void (*)(double dt, const EvaluationRules& rules, PairBlock& block);
 
 /// Compiled for one instruction set, or for one couple after the other. All give the same bits.
 struct ContactKernels {

@@ -69,8 +69,7 @@ void set_contactors(const LocalMesh& local, std::vector<Index> slots, ContactSta
     contact.contactor_of_slot[static_cast<std::size_t>(contact.contactors[c])] = static_cast<Index>(c);
   }
   contact.ramp_of_contactor.assign(contact.contactors.size(), -1);
-  contact.elements = {};
-  contact.elements.place.assign(at(local.num_slots / kLanes), -1);
+  contact.elements = StepElements(local.num_slots);
 }
 
 void add_face_points(const ContactParams& params, const LocalMesh& local, Index slot, int face, ContactState& contact) {

@@ -42,7 +42,7 @@ void EndedCouples::end(const TouchingCouple& old, double lost) {
   if (escape.is_over) return;
   lost += escape.lost;
   TouchingCouple ended{old.point, old.contactor, {.delayed = without_overlap(view_.dt(), last.delayed)}};
-  ended.history.gained_before = last.gained_before;
+  if (view_.rules().remembered_gain) ended.history.gained_before = last.gained_before;
   if (!at_rest) {
     ended.history.gained = last.gained + 0.5 * last.force.dot(motion) - pair_step::held(pair, last) + lost;
     const Vec3 force = pull(pair, last, motion, ended.history);
@@ -93,10 +93,11 @@ bool EndedCouples::is_near(const std::array<double, 4>& lambda, Index slot, cons
 Vec3 EndedCouples::pull(const ContactPair<double>& pair, const PairHistory<double>& last, const Vec3& motion,
                         PairHistory<double>& h) const {
   const bool pushed = last.d > 0 && last.balance > -1;
-  h.force = closing_force(h.gained, last.force, motion, pushed, pair.stiffness());
+  const bool pulls = view_.rules().correction && view_.rules().closing_pull;
+  h.force = pulls ? closing_force(h.gained, last.force, motion, pushed, pair.stiffness()) : Vec3(Vec3::Zero());
   h.gained += 0.5 * h.force.dot(motion);
   if (h.force == Vec3::Zero()) {
-    h.gained_before += h.gained;
+    if (view_.rules().remembered_gain) h.gained_before += h.gained;
     h.gained = 0;
   }
   return h.force;

@@ -17,6 +17,11 @@ namespace breccia {
 /// Change of overlap over motion that is put down to the deformation and rotation of an element in one step.
 inline constexpr double kSameSlope = 1e-3;
 
+/// Those of ContactRules that are evaluated side by side.
+struct EvaluationRules {
+  bool correction = true, steep_correction = true, friction_age = true, second_stage = true;
+};
+
 /// A couple in contact, over the number type.
 template <class T>
 struct ContactPair {
@@ -32,6 +37,7 @@ struct ContactPair {
   T continues = 0.0;                ///< 1: it touched one step ago, 0: not
   T held_by_old_law = 0.0;          ///< J, what it held beyond what it would have by its present law
   T damping_before = 0.0;           ///< J, twice the work of the damping force of one step ago over the motion
+  EvaluationRules rules{};
 
   /// N/m, along the normal.
   [[nodiscard]] T stiffness() const { return weight * law.penalty / length; }
@@ -137,7 +143,8 @@ inline void rub(const ContactPair<T>& pair, double dt, const T& normal, const Ma
   spring = select_vector(any_component(h.spring), spring, h.spring);
   const auto presses = h.d > 0.0;
   DelayedForceOf<T> delayed = h.delayed;
-  follow_normal_force(normal * slope, dt, pair.longest_delay, delayed);
+  if (!pair.rules.friction_age) delayed.age = kSteadyAge * pair.longest_delay;
+  follow_normal_force(normal * slope, dt, pair.longest_delay, delayed, pair.rules.second_stage);
   const T limit = select(presses, T(pair.law.friction * delayed.force), T(0.0));
   const FrictionStep<Vector> friction = friction_step(outward, pair.motion, k, limit, spring);
   h.delayed = select_delayed(rubs && presses, delayed, h.delayed);
@@ -164,7 +171,7 @@ inline void correct(const ContactPair<T>& pair, const T& stored, const Mask<T>& 
   const T gained = h.gained + select(leaves, T(0.5 * work - stored), T(0.0));
   const auto is_steep = pair.law.exponent > 1.0 && work > 0.0;
   BalancingLimitsOf<T> limits = balancing_limits(work, k, out);
-  if (any(is_steep)) limits = select_limits(is_steep, steep_limits(work, k, pair.law.exponent, out), limits);
+  if (pair.rules.steep_correction && any(is_steep)) limits = select_limits(is_steep, steep_limits(work, k, pair.law.exponent, out), limits);
   const BalancingSharesOf<T> shares = balancing_shares(gained, h.gained_before, work, limits);
   const T balance = shares.own + shares.before;
   h.balance = select(works, balance, h.balance);
@@ -204,7 +211,7 @@ template <class T>
   const T before = select(pair.continues > 0.0, T(held(pair, last) + pair.held_by_old_law), T(0.0));
   const T gain = 0.5 * (last.force + h.force).dot(pair.motion) + kept - before + e.lost;
   h.gained = select(counts, T(h.gained + gain), h.gained);
-  correct(pair, e.stored, counts, h);
+  if (pair.rules.correction) correct(pair, e.stored, counts, h);
   return e;
 }
 

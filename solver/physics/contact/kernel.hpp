@@ -183,7 +183,7 @@ inline void move(double dt, PairBlock& b, std::size_t first) {
 
 /// One step of some couples.
 template <class Real>
-inline void evaluate_some(double dt, PairBlock& b, std::size_t first) {
+inline void evaluate_some(double dt, const EvaluationRules& rules, PairBlock& b, std::size_t first) {
   const Some<Real> at{first};
   ContactPair<Real> pair;
   for_each_law_number([&](Real& x, const ContactRow& row) { x = at.load(row); }, pair.law, b.law);
@@ -199,6 +199,7 @@ inline void evaluate_some(double dt, PairBlock& b, std::size_t first) {
   pair.continues = at.load(b.continues);
   pair.held_by_old_law = at.load(b.held_by_old_law);
   pair.damping_before = at.load(b.damping_before);
+  pair.rules = rules;
   PairHistory<Real> h;
   for_each_pair_number([&](const PairNumber&, auto& x, const ContactRow& row) { x = at.load(row); }, h, b.history);
   const PairEnergies<Real> e = evaluate(pair, dt, h);
@@ -223,8 +224,8 @@ inline void move_block(double dt, PairBlock& block) {
   for (std::size_t first = 0; first < kLanes; first += width<Real>()) move<Real>(dt, block, first);
 }
 template <class Real>
-inline void evaluate_block(double dt, PairBlock& block) {
-  for (std::size_t first = 0; first < kLanes; first += width<Real>()) evaluate_some<Real>(dt, block, first);
+inline void evaluate_block(double dt, const EvaluationRules& rules, PairBlock& block) {
+  for (std::size_t first = 0; first < kLanes; first += width<Real>()) evaluate_some<Real>(dt, rules, block, first);
 }
 template <class Real>
 [[nodiscard]] inline ContactKernels contact_kernels() {

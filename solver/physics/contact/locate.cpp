@@ -18,29 +18,27 @@ void Locator::collect(std::span<AwakeCouple> couples) {
   Vec3 x = Vec3::Zero();
   for (AwakeCouple& couple : couples) {
     if (contact_.travel < couple.apart_until) continue;
-    const std::size_t lane = located_.size() % kLanes;
+    const std::size_t block = located_.size() / kLanes, lane = located_.size() % kLanes;
     if (located_.size() == before) {
       points_.push_back({couple.point, before});
       x = view_.place_of(view_.point(couple.point));
     }
-    located_.emplace_back().here.couple = &couple;
-    block_.tetra[lane] = &view_.tetra_of(couple.contactor);
-    for (std::size_t axis = 0; axis < 3; ++axis) block_.x[axis][lane] = x[static_cast<Eigen::Index>(axis)];
-    if (lane + 1 == kLanes) locate(located_.size() - kLanes);
+    located_.push_back(&couple);
+    if (block == blocks_.size()) blocks_.emplace_back();
+    LocateBlock& b = blocks_[block];
+    b.tetra[lane] = &view_.tetra_of(couple.contactor);
+    for (std::size_t axis = 0; axis < 3; ++axis) b.x[axis][lane] = x[static_cast<Eigen::Index>(axis)];
+    if (lane + 1 == kLanes) kernels_.locate(b);
   }
 }
 
-/// Evaluates the block. @param first  of its couples
-void Locator::locate(std::size_t first) {
-  const std::size_t count = located_.size() - first;
-  for (std::size_t lane = count; lane < kLanes; ++lane) block_.tetra[lane] = block_.tetra[0];
-  kernels_.locate(block_);
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    Located& located = located_[first + lane];
-    for (std::size_t a = 0; a < 4; ++a) located.here.lambda[a] = block_.lambda[a][lane];
-    located.here.safe = block_.safe[lane];
-    located.where = block_.where[lane];
-  }
+/// Evaluates the last block if it is not full.
+void Locator::fill_last_block() {
+  const std::size_t count = located_.size() % kLanes;
+  if (count == 0) return;
+  LocateBlock& block = blocks_[located_.size() / kLanes];
+  for (std::size_t lane = count; lane < kLanes; ++lane) block.tetra[lane] = block.tetra[0];
+  kernels_.locate(block);
 }
 
 /// Fills inside_ and beside_ from the located couples [first, end).
@@ -48,19 +46,15 @@ void Locator::sort_out(std::size_t first, std::size_t end) {
   inside_.clear();
   beside_.clear();
   for (std::size_t k = first; k < end; ++k) {
-    const Located& located = located_[k];
-    switch (located.where) {
-      case Whereabouts::inside:
-        inside_.push_back(located.here);
-        break;
-      case Whereabouts::beside:
-        beside_.push_back(located.here);
-        break;
-      case Whereabouts::outside:
-        located.here.couple->apart_until = contact_.travel + located.here.safe;
-        break;
-      case Whereabouts::nowhere:
-        break;
+    const LocateBlock& block = blocks_[k / kLanes];
+    const std::size_t lane = k % kLanes;
+    if (block.where[lane] == Whereabouts::outside) {
+      located_[k]->apart_until = contact_.travel + block.safe[lane];
+    } else if (block.where[lane] != Whereabouts::nowhere) {
+      std::vector<Nearby>& nearby = block.where[lane] == Whereabouts::inside ? inside_ : beside_;
+      nearby.push_back({located_[k],
+                        {block.lambda[0][lane], block.lambda[1][lane], block.lambda[2][lane], block.lambda[3][lane]},
+                        block.safe[lane]});
     }
   }
 }

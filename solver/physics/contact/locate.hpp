@@ -38,11 +38,6 @@ class Locator {
   /// Couples that are located before the first of their points is used: few, so that they remain in the cache.
   static constexpr std::size_t kMostLocated = 64;
 
-  /// A couple and the position of its point.
-  struct Located {
-    Nearby here;
-    Whereabouts where;
-  };
   /// A point, with its couples.
   struct LocatedPoint {
     Index point;
@@ -51,7 +46,7 @@ class Locator {
 
   template <class Use>
   void use_located(Use&& use) {
-    if (const std::size_t rest = located_.size() % kLanes; rest > 0) locate(located_.size() - rest);
+    fill_last_block();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       sort_out(points_[i].first, i + 1 < points_.size() ? points_[i + 1].first : located_.size());
       use(points_[i].point, std::as_const(inside_), beside_);
@@ -62,17 +57,17 @@ class Locator {
 
   void wake();
   void collect(std::span<AwakeCouple> couples);
-  void locate(std::size_t first);
+  void fill_last_block();
   void sort_out(std::size_t first, std::size_t end);
 
   ContactView& view_;
   ContactState& contact_;
   const ContactKernels& kernels_;
-  LocateBlock block_;
-  std::vector<LocatedPoint> points_;  ///< a few, to be used next
-  std::vector<Located> located_;      ///< of these
-  std::vector<Nearby> inside_;        ///< of the point at hand, ascending: couples whose contactor holds it
-  std::vector<Nearby> beside_;        ///< likewise: it lies just outside
+  std::vector<LocateBlock> blocks_;
+  std::vector<LocatedPoint> points_;   ///< a few, to be used next
+  std::vector<AwakeCouple*> located_;  ///< of these, eight a block
+  std::vector<Nearby> inside_;         ///< of the point at hand, ascending: couples whose contactor holds it
+  std::vector<Nearby> beside_;         ///< likewise: it lies just outside
 };
 
 }  // namespace breccia

@@ -5,6 +5,7 @@
 
 #include "base/types.hpp"
 #include "physics/contact/law/normal.hpp"
+#include "physics/contact/rules.hpp"
 
 namespace breccia {
 
@@ -38,6 +39,7 @@ struct ContactParams {
   std::vector<ContactLaw> laws;  ///< (num_groups, num_groups): of points of a group against contactors of another
   std::vector<InitialOverlap> initial_overlaps;  ///< likewise
   std::optional<SphericalBoundary> sphere;
+  ContactRules rules;
 
   /// Of the points of a group against the elements of another.
   [[nodiscard]] const ContactLaw& law(Index group, Index other) const {

@@ -21,6 +21,8 @@ void PairQueue::push(Index point, std::span<const Candidate> candidates) {
   if (candidates.empty()) return;
   std::vector<TouchingCouple>& touching = contact_.touching;
   for (const Candidate& candidate : candidates) touching.push_back({point, candidate.contactor, {}});
+  if (candidates.size() == 1 && (touching.size() == 1 || touching[touching.size() - 2].point != point))
+    return push(point, candidates.front(), touching.size() - 1);
   // What is left of couples of the point that have just ended came first.
   std::size_t first = touching.size();
   while (first > 0 && touching[first - 1].point == point) --first;
@@ -35,7 +37,6 @@ void PairQueue::push(Index point, std::span<const Candidate> candidates) {
 void PairQueue::push(Index point, const Candidate& candidate, std::size_t place) {
   const std::size_t lane = filled_++;
   lanes_[lane] = {point, place, candidate, 0.0};
-  waiting_.push_back({.lane = static_cast<std::ptrdiff_t>(lane)});
   fill_place(view_.point(point), candidate, lane);
   fill_laws(point, candidate, lane);
   const auto put_number = [lane](const PairNumber&, const double& x, ContactRow& row) { row[lane] = x; };
@@ -54,7 +55,7 @@ void PairQueue::push_forces_of_ended() {
     if (filled_ == 0)
       add_force(known);
     else
-      waiting_.push_back({.known = known});
+      waiting_.push_back({filled_, known});
   }
   ended_.clear();
 }
@@ -91,21 +92,24 @@ void PairQueue::fill_place(const ContactPoint& point, const Candidate& candidate
 
 void PairQueue::fill_laws(Index index, const Candidate& candidate, std::size_t lane) {
   const ContactPoint& point = view_.point(index);
-  const ContactPair<double> pair = view_.pair_of(index, candidate.contactor);
-  for_each_law_number([lane](const double& x, ContactRow& row) { row[lane] = x; }, pair.law, block_.law);
-  block_.weight[lane] = pair.weight;
-  block_.length[lane] = pair.length;
-  block_.longest_delay[lane] = view_.longest_delay(index, candidate.contactor);
+  const Index contactor = candidate.contactor;
+  const ContactLaw& law = view_.law_of(index, contactor);
+  for_each_law_number([lane](const double& x, ContactRow& row) { row[lane] = x; }, law, block_.law);
+  block_.weight[lane] = point.weight;
+  block_.length[lane] = view_.length_of(contactor);
+  block_.longest_delay[lane] =
+      view_.rules().friction_lag_stages > 0 ? view_.longest_delay(law, index, contactor) : 0.0;
   block_.continues[lane] = candidate.old >= 0 ? 1 : 0;
   block_.held_by_old_law[lane] = block_.damping_before[lane] = 0;
   put(Vec3::Zero(), lane, block_.rotation);
   if (candidate.old < 0) return;
   const TouchingCouple& old = contact_.touching_before[at(candidate.old)];
-  if (old.history.spring != Vec3::Zero())
-    put(view_.mean_rotation(point, candidate.contactor), lane, block_.rotation);
-  if (&view_.law_of(index, old.contactor) == &view_.law_of(index, candidate.contactor)) return;
-  const ContactPair<double> before = view_.pair_of(index, old.contactor);
-  block_.held_by_old_law[lane] = pair_step::held(before, old.history) - pair_step::held(pair, old.history);
+  const PairHistory<double>& h = old.history;
+  if (h.spring != Vec3::Zero() && view_.rules().spring_turns)
+    put(view_.mean_rotation(point, contactor), lane, block_.rotation);
+  if (old.contactor == contactor || &view_.law_of(index, old.contactor) == &law) return;
+  block_.held_by_old_law[lane] =
+      pair_step::held(view_.pair_of(index, old.contactor), h) - pair_step::held(view_.pair_of(index, contactor), h);
 }
 
 /// Evaluates the block, and adds all forces in the order in which they came.
@@ -119,13 +123,13 @@ void PairQueue::evaluate() {
     adjust(lane);
     lanes_[lane].offset = block_.history.offset[lane];
   }
-  kernels_.evaluate(view_.dt(), block_);
-  for (const Waiting& waiting : waiting_) {
-    if (waiting.lane >= 0)
-      take_results(at(waiting.lane));
-    else
-      add_force(waiting.known);
+  kernels_.evaluate(view_.dt(), rules_, block_);
+  auto next = waiting_.begin();
+  for (std::size_t lane = 0; lane < filled_; ++lane) {
+    for (; next != waiting_.end() && next->before == lane; ++next) add_force(next->known);
+    take_results(lane);
   }
+  for (; next != waiting_.end(); ++next) add_force(next->known);
   waiting_.clear();
   filled_ = 0;
 }

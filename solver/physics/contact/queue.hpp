@@ -23,7 +23,11 @@ class PairQueue {
         ended_(ended),
         contact_(contact),
         work_(work),
-        kernels_(kernels) {}
+        kernels_(kernels),
+        rules_{.correction = view.rules().correction,
+               .steep_correction = view.rules().steep_correction,
+               .friction_age = view.rules().friction_age,
+               .second_stage = view.rules().friction_lag_stages > 1} {}
 
   /// Couples of a point. To be called for points in ascending order
   void push(Index point, std::span<const Candidate> candidates);
@@ -40,10 +44,10 @@ class PairQueue {
     Candidate candidate;
     double offset;  ///< m, before evaluation
   };
-  /// A force that is to be added to nodes, in its turn: of a couple in the block, or known already.
+  /// A force that is known, to be added before that of a lane.
   struct Waiting {
-    std::ptrdiff_t lane = -1;  ///< -1: known
-    KnownForce known{};
+    std::size_t before;
+    KnownForce known;
   };
 
   void push(Index point, const Candidate& candidate, std::size_t place);
@@ -64,10 +68,11 @@ class PairQueue {
   ContactState& contact_;
   ContactWork& work_;
   const ContactKernels& kernels_;
+  EvaluationRules rules_;
   PairBlock block_;
   std::array<Lane, kLanes> lanes_;
   std::size_t filled_ = 0;
-  std::vector<Waiting> waiting_;
+  std::vector<Waiting> waiting_;         ///< ascending
   std::vector<std::size_t> disordered_;  ///< places in ContactState::touching whose couple ended within its contactor
 };
 

@@ -9,7 +9,7 @@ std::span<Candidate> Resolver::candidates(Index point, std::span<const Nearby> i
   candidates_.clear();
   for (const Nearby& here : inside) consider(view_.point(point), here.couple->contactor, here.lambda);
   if (!beside.empty()) bridge_gaps(point, beside);
-  if (candidates_.size() > 1) drop_ambiguous();
+  if (candidates_.size() > 1 && view_.rules().one_of_neighbours) drop_ambiguous();
   if (!candidates_.empty()) find_histories(point);
   return candidates_;
 }
@@ -60,9 +60,9 @@ void Resolver::bridge_gaps(Index point, std::span<Nearby> beside) {
     const bool continues =
         std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(inside),
                     [&](const Candidate& c) { return view_.are_neighbours(c.contactor, contactor); });
-    if (!continues) consider(view_.point(point), contactor, here.lambda);
+    if (!continues && view_.rules().bridge_gaps) consider(view_.point(point), contactor, here.lambda);
   }
-  prefer_facing_sides(view_.point(point), beside, inside);
+  if (view_.rules().prefer_facing_side) prefer_facing_sides(view_.point(point), beside, inside);
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.contactor < b.contactor; });
   // One may have replaced two that share the place of the point.
@@ -190,7 +190,7 @@ Adjusted Resolver::adjust(Index point, const Candidate& candidate, const PairHis
     const TouchingCouple& old = contact_.touching_before[at(candidate.old)];
     switch_gradient(view_.point(point), candidate, old, motion, gradient, now);
   }
-  if (!(h.d > 0) && now.overlap_before > now.offset &&
+  if (view_.rules().far_side && !(h.d > 0) && now.overlap_before > now.offset &&
       comes_from_beside(view_.point(point), candidate, motion, now.offset))
     now.offset = now.overlap_before;
   return now;
@@ -223,7 +223,7 @@ void Resolver::switch_gradient(const ContactPoint& point, const Candidate& candi
   // A couple that has ended may come back from outside, where its place was not kept.
   const bool was_kept = h.d > 0 || h.offset != 0;
   if (was_kept) now.turn = along - change;
-  if (std::abs(change - along) <= kSameSlope * motion.norm()) return;
+  if (std::abs(change - along) <= kSameSlope * motion.norm() || !view_.rules().gradient_switch) return;
   const ContactView::Before last = view_.one_step_ago(point, old.contactor);
   double along_before = 0;
   if (!inert(last.tetra)) {
@@ -281,6 +281,7 @@ double Resolver::first_offset(Index point, const Candidate& candidate, const Vec
     const double depth = overlap_value(view_.shape_of(contactor), candidate.lambda);
     return depth > kOverlapTolerance * view_.length_of(contactor) ? 0.0 : std::max(candidate.g_before, 0.0);
   }
+  if (!view_.rules().first_offset) return 0.0;
   const double inwards = std::max(gradient_before(candidate, gradient).dot(motion), 0.0);
   return std::max(candidate.g_before - inwards - kSameSlope * motion.norm(), 0.0);
 }

@@ -19,7 +19,6 @@ struct ContactRules {
   bool bridge_gaps = true;         ///< a point that pressed on an element and is now in a joint beside it stays with it
   bool one_of_neighbours = true;   ///< of neighbouring elements that hold a point the first one counts
   bool first_offset = true;        ///< what lies deeper at first than its point has moved inwards makes no force
-  bool fade_in = true;             ///< the field follows a freed face within some steps; false: in one
 };
 
 }  // namespace breccia

@@ -12,11 +12,11 @@ bool share_vertex(const LocalMesh& local, Index slot, Index other) {
 constexpr std::size_t kCorners = std::size_t{12} * kLanes;  // numbers of a block in a nodal field
 
 /// @param from  [corner][axis][lane], or null: nothing acts on them
-void load_forces(const double* from, StepElements::Block& elements) {
+void load_forces(const double* from, StepElements::Block& block) {
   for (std::size_t c = 0; c < 4; ++c) {
     for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t lane = 0; lane < elements.size(); ++lane)
-        elements[lane].force[c][i] = from == nullptr ? 0.0 : from[(3 * c + i) * kLanes + lane];
+      for (std::size_t lane = 0; lane < kLanes; ++lane)
+        block.elements[lane].force[i][c] = from == nullptr ? 0.0 : from[(3 * c + i) * kLanes + lane];
     }
   }
 }
@@ -33,17 +33,12 @@ ContactView::ContactView(const ContactParams& params, const LocalMesh& local, co
       forces_(forces),
       contact_(contact),
       rule_(face_rule(params.points_per_face)) {
-  ++contact.elements.step;
-  contact.elements.used.clear();
+  contact.elements.begin_step();
 }
 
-const ContactLaw& ContactView::law_of(Index index, Index contactor) const {
-  return params_.law(group_of(point(index).slot), group_of(slot_of(contactor)));
-}
-
-double ContactView::longest_delay(Index index, Index contactor) const {
+double ContactView::longest_delay(const ContactLaw& law, Index index, Index contactor) const {
   const auto extent = [&](Index slot) { return contact_.body_extent[at(local_.slot_body[at(slot)])]; };
-  return law_of(index, contactor).friction_delay * std::min(extent(point(index).slot), extent(slot_of(contactor)));
+  return law.friction_delay * std::min(extent(point(index).slot), extent(slot_of(contactor)));
 }
 
 bool ContactView::are_neighbours(Index contactor, Index other) const {
@@ -75,50 +70,42 @@ Vec3 ContactView::outward_of(const ContactPoint& point, double dt) const {
   });
 }
 
-StepElements::Block& ContactView::prepare_block(Index block) {
-  StepElements& all = contact_.elements;
-  Index& place = all.place[at(block)];
-  if (place < 0) {
-    place = static_cast<Index>(all.blocks.size());
-    all.blocks.emplace_back();
-    all.prepared_in.push_back(0);
-    all.acted_in.push_back(0);
-  }
-  all.prepared_in[at(place)] = all.step;
-  all.used.push_back(block);
-  StepElements::Block& elements = all.blocks[at(place)];
+StepElements::Block& ContactView::prepare_block(Index slot) {
+  StepElements::Block& block = contact_.elements.prepare(slot);
+  StepElement* elements = block.elements.data();
+  const std::size_t first = at(block.index) * kCorners;
   const double *x = state_.position.data(), *v = state_.velocity.data(),
-               *volume = local_.volume.data() + at(block) * kLanes;
-  if (block < local_.num_own_blocks()) {
-    kernels_.prepare(x + at(block) * kCorners, v + at(block) * kCorners, volume, elements.data());
-    load_forces(forces_.block(block), elements);
-    return elements;
+               *volume = local_.volume.data() + at(block.index) * kLanes;
+  if (slot < local_.num_own_slots) {
+    kernels_.prepare(x + first, v + first, volume, elements);
+    load_forces(forces_.block(block.index), block);
+    return block;
   }
   alignas(64) std::array<double, kCorners> corners{}, velocities{};
   for (Index lane = 0; lane < kLanes; ++lane) {
-    const Index slot = block * kLanes + lane;
-    if (local_.element_of_slot[at(slot)] < 0) continue;
+    const Index here = block.index * kLanes + lane;
+    if (local_.element_of_slot[at(here)] < 0) continue;
     for (int c = 0; c < 4; ++c) {
       for (int i = 0; i < 3; ++i) {
-        const std::size_t from = nodal(local_.corner_node(slot, c), i), to = at((3 * c + i) * kLanes + lane);
+        const std::size_t from = nodal(local_.corner_node(here, c), i), to = at((3 * c + i) * kLanes + lane);
         corners[to] = x[from];
         velocities[to] = v[from];
       }
     }
   }
-  kernels_.prepare(corners.data(), velocities.data(), volume, elements.data());
-  return elements;
+  kernels_.prepare(corners.data(), velocities.data(), volume, elements);
+  return block;
 }
 
 void ContactView::add_force(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
                             const Vec3& force) {
   const std::array<double, 3>& shape = shape_at(point);
-  const auto add = [&force](double(&to)[3], double factor) {
-    for (std::size_t i = 0; i < 3; ++i) to[i] += factor * force[static_cast<Eigen::Index>(i)];
-  };
   if (point.slot < local_.num_own_slots) {
     StepElement& target = element_to_act_on(point.slot);
-    for (std::size_t i = 0; i < 3; ++i) add(target.force[kFaceCorners[at(point.face)][i]], shape[i]);
+    const auto& corners = kFaceCorners[at(point.face)];
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t c = 0; c < 3; ++c) target.force[i][corners[c]] += shape[c] * force[static_cast<Eigen::Index>(i)];
+    }
   } else {
     const std::array<double*, 3> nodes = forces_.places(point.nodes);
     for (std::size_t i = 0; i < 3; ++i) NodalForces::add(nodes[i], shape[i], force);
@@ -126,7 +113,9 @@ void ContactView::add_force(const ContactPoint& point, Index contactor, const st
   const Index slot = slot_of(contactor);
   if (slot < local_.num_own_slots) {
     StepElement& other = element_to_act_on(slot);
-    for (std::size_t a = 0; a < 4; ++a) add(other.force[a], -lambda[a]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t a = 0; a < 4; ++a) other.force[i][a] += -lambda[a] * force[static_cast<Eigen::Index>(i)];
+    }
   } else {
     const std::array<double*, 4> nodes = forces_.places(local_.shared_corners[at(slot - local_.num_own_slots)]);
     for (std::size_t a = 0; a < 4; ++a) NodalForces::add(nodes[a], -lambda[a], force);
@@ -134,18 +123,15 @@ void ContactView::add_force(const ContactPoint& point, Index contactor, const st
 }
 
 void ContactView::store_forces() {
-  const StepElements& all = contact_.elements;
-  for (const Index block : all.used) {
-    const Index place = all.place[at(block)];
-    if (all.acted_in[at(place)] != all.step) continue;
-    const StepElements::Block& elements = all.blocks[at(place)];
-    double* to = forces_.acted_block(block);
+  contact_.elements.for_each_acted([&](const StepElements::Block& block) {
+    if (block.index >= local_.num_own_blocks()) return;
+    double* to = forces_.acted_block(block.index);
     for (std::size_t c = 0; c < 4; ++c) {
       for (std::size_t i = 0; i < 3; ++i, to += kLanes) {
-        for (std::size_t lane = 0; lane < elements.size(); ++lane) to[lane] = elements[lane].force[c][i];
+        for (std::size_t lane = 0; lane < kLanes; ++lane) to[lane] = block.elements[lane].force[i][c];
       }
     }
-  }
+  });
 }
 
 const OverlapShape& ContactView::shape_of(Index contactor, Instant instant) const {

@@ -30,6 +30,7 @@ class ContactView {
   void store_forces();
 
   [[nodiscard]] const ContactParams& params() const { return params_; }
+  [[nodiscard]] const ContactRules& rules() const { return params_.rules; }
   [[nodiscard]] const LocalMesh& local() const { return local_; }
   [[nodiscard]] const NodalState& nodes() const { return state_; }
   [[nodiscard]] double dt() const { return dt_; }
@@ -39,13 +40,15 @@ class ContactView {
   [[nodiscard]] Index body_of(Index contactor) const { return local_.slot_body[at(slot_of(contactor))]; }
   /// H, m, of a contactor's body.
   [[nodiscard]] double length_of(Index contactor) const { return contact_.body_length[at(body_of(contactor))]; }
-  [[nodiscard]] const ContactLaw& law_of(Index point, Index contactor) const;
+  [[nodiscard]] const ContactLaw& law_of(Index point, Index contactor) const {
+    return params_.law(group_of(this->point(point).slot), group_of(slot_of(contactor)));
+  }
   /// Laws and sizes of a couple alone.
   [[nodiscard]] ContactPair<double> pair_of(Index point, Index contactor) const {
     return {.law = law_of(point, contactor), .weight = this->point(point).weight, .length = length_of(contactor)};
   }
   /// s, longest delay of friction (law/lag.hpp).
-  [[nodiscard]] double longest_delay(Index point, Index contactor) const;
+  [[nodiscard]] double longest_delay(const ContactLaw& law, Index point, Index contactor) const;
   /// Whether two contactors are of one body and share a vertex of its mesh.
   [[nodiscard]] bool are_neighbours(Index contactor, Index other) const;
   [[nodiscard]] bool shares_vertex(Index point, Index contactor) const;
@@ -70,19 +73,16 @@ class ContactView {
   [[nodiscard]] Vec3 outward_of(const ContactPoint& point, double dt = 0) const;
 
   /// The element of a slot in this step, prepared on its first use.
-  [[nodiscard]] StepElement& element(Index slot) {
-    StepElements& all = contact_.elements;
-    const Index place = all.place[at(slot / kLanes)];
-    if (place < 0 || all.prepared_in[at(place)] != all.step) return prepare_block(slot / kLanes)[at(slot % kLanes)];
-    return all.blocks[at(place)][at(slot % kLanes)];
-  }
+  [[nodiscard]] StepElement& element(Index slot) { return block_with(slot).elements[at(slot % kLanes)]; }
   [[nodiscard]] const PreparedTetra& tetra_of(Index contactor) { return element(slot_of(contactor)).tetra; }
 
   /// Whether the overlap field of a contactor changes in this step.
   [[nodiscard]] bool is_growing(Index contactor) const { return contact_.ramp_of_contactor[at(contactor)] >= 0; }
-  [[nodiscard]] bool has_sides(Index contactor) const { return breccia::has_sides(params_, contact_, contactor); }
+  [[nodiscard]] bool has_sides(Index contactor) const {
+    return rules().facing_sides && breccia::has_sides(params_, contact_, contactor);
+  }
   [[nodiscard]] bool has_several_sides(Index contactor) const {
-    return breccia::has_several_sides(params_, contact_, contactor);
+    return rules().facing_sides && breccia::has_several_sides(params_, contact_, contactor);
   }
   /// The overlap functions of a contactor; valid until the next call.
   [[nodiscard]] const OverlapShape& shape_of(Index contactor, Instant instant = Instant::now) const;
@@ -102,11 +102,15 @@ class ContactView {
 
  private:
   [[nodiscard]] Index group_of(Index slot) const { return local_.block_group[at(slot / kLanes)]; }
-  StepElements::Block& prepare_block(Index block);
+  [[nodiscard]] StepElements::Block& block_with(Index slot) {
+    StepElements::Block* block = contact_.elements.prepared(slot);
+    return block != nullptr ? *block : prepare_block(slot);
+  }
+  StepElements::Block& prepare_block(Index slot);
   [[nodiscard]] StepElement& element_to_act_on(Index slot) {
-    StepElement& acted = element(slot);
-    contact_.elements.acted_in[at(contact_.elements.place[at(slot / kLanes)])] = contact_.elements.step;
-    return acted;
+    StepElements::Block& block = block_with(slot);
+    contact_.elements.note_force(block);
+    return block.elements[at(slot % kLanes)];
   }
 
   const ContactParams& params_;

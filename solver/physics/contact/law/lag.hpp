@@ -38,18 +38,21 @@ inline constexpr double kSteadyAge = 14;
 /// 1/(omega t) with one stage, 16/(omega t)^3 with two. With one a block that slid down a slope of 30 degrees with a
 /// coefficient of 0.5 came to hop within half a second. Between overlaps f stays as it is, so that in the mean over all
 /// overlaps it is f_n.
+/// @param second_stage  false: one stage, with a delay of t (ContactRules)
 /// @param normal  N, f_n;  @param dt  s, >= 0;  @param longest  s, >= 0;  @param delayed  read and written
 template <class Real>
 void follow_normal_force(const std::type_identity_t<Real>& normal, const std::type_identity_t<Real>& dt,
-                         const std::type_identity_t<Real>& longest, DelayedForceOf<Real>& delayed) {
+                         const std::type_identity_t<Real>& longest, DelayedForceOf<Real>& delayed,
+                         bool second_stage = true) {
   using elasticity::select;
   delayed.age = elasticity::lesser(Real(delayed.age + dt), Real(kSteadyAge * longest));
   const Real settled = select(longest > 0.0, Real(delayed.age / (kSteadyAge * longest)), Real(0.0));
-  const Real half = 0.5 * longest * settled * settled;
+  const Real half = (second_stage ? 0.5 : 1.0) * longest * settled * settled;
   const auto late = dt < half;
   const Real share = dt / half;
   delayed.halfway = select(late, Real(delayed.halfway + (normal - delayed.halfway) * share), Real(normal));
-  delayed.force = select(late, Real(delayed.force + (delayed.halfway - delayed.force) * share), Real(normal));
+  const Real force = second_stage ? Real(delayed.force + (delayed.halfway - delayed.force) * share) : delayed.halfway;
+  delayed.force = select(late, force, Real(normal));
 }
 
 /// One step without overlap: what lifts off again and again stays old. If the age fell to a third as fast, blocks that
