@@ -13,8 +13,8 @@
 #include "base/index.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "physics/contact/contact_bound.hpp"
-#include "physics/contact/contact_field.hpp"
-#include "physics/contact/contact_point.hpp"
+#include "physics/contact/geometry/field.hpp"
+#include "physics/contact/geometry/point.hpp"
 #include "physics/contact/patches_nearby.hpp"
 
 namespace breccia {

@@ -11,8 +11,8 @@
 
 #include "base/field.hpp"
 #include "discretisation/local_mesh.hpp"
-#include "physics/contact/contact_params.hpp"
-#include "physics/contact/contact_state.hpp"
+#include "physics/contact/params.hpp"
+#include "physics/contact/state.hpp"
 #include "physics/stable_step.hpp"
 
 namespace breccia {

@@ -5,10 +5,10 @@
 #include <iterator>
 
 #include "mesh/quality.hpp"
-#include "physics/contact/contact_field.hpp"
-#include "physics/contact/contact_point.hpp"
+#include "physics/contact/geometry/field.hpp"
+#include "physics/contact/geometry/point.hpp"
 #include "physics/contact/contact_step.hpp"
-#include "physics/contact/overlap.hpp"
+#include "physics/contact/geometry/overlap.hpp"
 #include "unit/physics/loads/models.hpp"
 
 namespace breccia::contact_step_test {

@@ -1,4 +1,4 @@
-#include "physics/contact/contact_forces.hpp"
+#include "physics/contact/forces.hpp"
 
 namespace breccia {
 
@@ -16,8 +16,8 @@ std::array<ExactSum, 3> contact_force_on(const ContactState& contact, const Loca
   for (const TouchingCouple& t : contact.touching) {
     const Index slot = slot_of(t.point);
     if (!local.is_original(slot)) continue;
-    if (holds(slot)) add(t.force);
-    if (holds(contact.contactors[static_cast<std::size_t>(t.contactor)])) add(-t.force);
+    if (holds(slot)) add(t.history.force);
+    if (holds(contact.contactors[static_cast<std::size_t>(t.contactor)])) add(-t.history.force);
   }
   return sum;
 }

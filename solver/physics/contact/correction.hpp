@@ -31,6 +31,13 @@ struct BalancingLimitsOf {
 };
 using BalancingLimits = BalancingLimitsOf<double>;
 
+template <class Mask, class Real>
+[[nodiscard]] BalancingLimitsOf<Real> select_limits(const Mask& mask, const BalancingLimitsOf<Real>& a,
+                                                    const BalancingLimitsOf<Real>& b) {
+  using elasticity::select;
+  return {select(mask, a.own, b.own), select(mask, a.give, b.give), select(mask, a.take, b.take)};
+}
+
 /// Of a linear law. Half of the force is that of one which begins at the very end of a step.
 /// @param work  J, of the normal force over the motion;  @param k  N/m
 template <class Real>
@@ -52,6 +59,9 @@ template <class Real>
   return {std::numeric_limits<double>::infinity(), balancing_limits(work, k, out).give,
           most + largest_pull(k, out) * out};
 }
+
+/// N; a pull as a fraction of less, at the far end of a steep curve, may overflow.
+inline constexpr double kNoForce = 1e-60;
 
 /// Shares of the normal force to be added to it.
 template <class Real>

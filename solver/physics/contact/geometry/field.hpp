@@ -1,9 +1,9 @@
 #pragma once
 
 #include "mesh/surface_depth.hpp"
-#include "physics/contact/contact_params.hpp"
-#include "physics/contact/contact_state.hpp"
-#include "physics/contact/overlap.hpp"
+#include "physics/contact/params.hpp"
+#include "physics/contact/state.hpp"
+#include "physics/contact/geometry/overlap.hpp"
 
 namespace breccia {
 

@@ -1,9 +1,10 @@
-#include "physics/contact/contact_couples.hpp"
+#include "physics/contact/couples.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "physics/contact/contact_field.hpp"
+#include "base/index.hpp"
+#include "physics/contact/geometry/field.hpp"
 
 namespace breccia {
 
@@ -68,7 +69,7 @@ void set_contactors(const LocalMesh& local, std::vector<Index> slots, ContactSta
     contact.contactor_of_slot[static_cast<std::size_t>(contact.contactors[c])] = static_cast<Index>(c);
   }
   contact.ramp_of_contactor.assign(contact.contactors.size(), -1);
-  contact.place.assign(contact.contactors.size(), -1);
+  contact.elements = StepElements(local.num_slots);
 }
 
 void add_face_points(const ContactParams& params, const LocalMesh& local, Index slot, int face, ContactState& contact) {
@@ -84,30 +85,46 @@ void sort_points(ContactState& contact) {
 }
 
 void couples_replaced(ContactState& contact) {
-  std::fill(contact.place.begin(), contact.place.end(), -1);
-  for (const ContactCouple& couple : contact.couples) contact.place[static_cast<std::size_t>(couple.contactor)] = 0;
-  contact.in_couples.clear();
-  for (std::size_t c = 0; c < contact.place.size(); ++c) {
-    if (contact.place[c] < 0) continue;
-    contact.place[c] = static_cast<Index>(contact.in_couples.size());
-    contact.in_couples.push_back(static_cast<Index>(c));
-  }
+  contact.awake.clear();
+  contact.awake_until = -std::numeric_limits<double>::infinity();
   group_by_point(contact.couples, contact.by_point);
 }
 
 void add_fresh_couples(const std::vector<ContactCouple>& made, ContactState& contact) {
   if (made.empty()) return;
+  put_awake_back(contact);
   merge_few(contact.couples, made, in_order(contact));
   merge_few(contact.fresh, made, in_order(contact));
-  for (const ContactCouple& couple : made) {
-    Index& place = contact.place[static_cast<std::size_t>(couple.contactor)];
-    if (place >= 0) continue;
-    place = static_cast<Index>(contact.in_couples.size());
-    contact.in_couples.push_back(couple.contactor);
-  }
   std::vector<PointCouples> points;
   group_by_point(made, points);
   add_points(points, contact);
+}
+
+void put_awake_back(ContactState& contact) {
+  for (const AwakeCouple& here : contact.awake) contact.couples[at(here.couple)].apart_until = here.apart_until;
+  contact.awake.clear();
+  contact.awake_until = -std::numeric_limits<double>::infinity();
+}
+
+void wake_couples(double ahead, ContactState& contact) {
+  put_awake_back(contact);
+  const bool all = !(contact.travel < std::numeric_limits<double>::infinity());
+  contact.awake_until = contact.travel + ahead;
+  const auto sleeps = [&](double apart_until) { return !all && !(apart_until < contact.awake_until); };
+  Index first = 0;
+  for (PointCouples& point : contact.by_point) {
+    const Index end = first + point.count;
+    if (!sleeps(point.apart_until)) {
+      point.apart_until = std::numeric_limits<double>::infinity();
+      for (Index k = first; k < end; ++k) {
+        const ContactCouple& couple = contact.couples[at(k)];
+        point.apart_until = std::min(point.apart_until, couple.apart_until);
+        if (!sleeps(couple.apart_until))
+          contact.awake.push_back({k, couple.point, couple.contactor, couple.apart_until});
+      }
+    }
+    first = end;
+  }
 }
 
 }  // namespace breccia

@@ -4,13 +4,14 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "physics/contact/contact_law.hpp"
+#include "physics/contact/law/normal.hpp"
+#include "physics/contact/rules.hpp"
 
 namespace breccia {
 
 /// Overlap g (m) of a point inside a contactor, from its barycentric coordinates lambda.
 enum class OverlapField {
-  body,           ///< depth below the surface of a whole body, continuous through it (contact_field.hpp)
+  body,           ///< depth below the surface of a whole body, continuous through it (geometry/field.hpp)
   tet_potential,  ///< 4 H min(lambda). Source: [Munjiza 2004]
   tet_distance    ///< distance to the nearest face of the undeformed tetrahedron
 };
@@ -38,6 +39,7 @@ struct ContactParams {
   std::vector<ContactLaw> laws;  ///< (num_groups, num_groups): of points of a group against contactors of another
   std::vector<InitialOverlap> initial_overlaps;  ///< likewise
   std::optional<SphericalBoundary> sphere;
+  ContactRules rules;
 
   /// Of the points of a group against the elements of another.
   [[nodiscard]] const ContactLaw& law(Index group, Index other) const {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "physics/contact/contact_params.hpp"
-#include "physics/contact/contact_state.hpp"
+#include "physics/contact/params.hpp"
+#include "physics/contact/state.hpp"
 
 namespace breccia {
 
@@ -17,8 +17,13 @@ void add_face_points(const ContactParams& params, const LocalMesh& local, Index 
 void sort_points(ContactState& contact);
 
 /// Makes `couples` ready for contact_forces after they have been replaced. @pre sorted (ContactState::before).
-/// O(contactors + couples).
+/// O(couples).
 void couples_replaced(ContactState& contact);
+
+/// Lists the couples that may come to matter while `travel` grows by `ahead`, m. O(points + couples of those awake).
+void wake_couples(double ahead, ContactState& contact);
+/// Ends that list; what is known of its couples is put back. O(couples awake).
+void put_awake_back(ContactState& contact);
 
 /// Merges couples made by fracture, which are not there yet, and lists them as fresh.
 /// @param made  sorted (ContactState::before), unique. O(couples), and O(n log(couples)) for n of them.

@@ -1,4 +1,4 @@
-#include "physics/contact/contact_field.hpp"
+#include "physics/contact/geometry/field.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,9 +34,13 @@ FieldRamp& ramp_of(Index contactor, ContactState& contact) {
   return contact.ramps[at(place)];
 }
 
+/// Bits of CornerSets: sets of three corners, and the others.
+constexpr unsigned kFaceSets = 1U << 7 | 1U << 11 | 1U << 13 | 1U << 14;
+constexpr unsigned kSmallSets = ((1U << kNumCornerSets) - 2) & ~kFaceSets;
+
 bool has_corner(unsigned set, std::size_t a) { return (set >> a & 1U) != 0; }
 /// Whether a set has three corners; without std::popcount, which is a call in the baseline instruction set.
-bool is_face(unsigned set) { return (((1U << 7) | (1U << 11) | (1U << 13) | (1U << 14)) >> set & 1U) != 0; }
+bool is_face(unsigned set) { return (kFaceSets >> set & 1U) != 0; }
 
 /// One function of an element on the surface. @param weight  of the set, 0 to 1
 std::array<double, 4> row_of(const FieldValues& values, const std::array<double, 4>& height, unsigned set,
@@ -50,6 +54,24 @@ std::array<double, 4> row_of(const FieldValues& values, const std::array<double,
     }
   }
   return row;
+}
+
+/// least_function() of an element that meets the surface with faces alone, as all of what has come apart: each of its
+/// sums has one term.
+OverlapFunction least_of_faces(const std::array<double, 4>& height, const FieldValues& values,
+                               const std::array<double, 4>& lambda) {
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t opposite = 0;
+  for (const std::size_t a : {3, 2, 1, 0}) {
+    if ((static_cast<unsigned>(values.sets) >> (15U ^ 1U << a) & 1U) == 0) continue;
+    const double g = lambda[a] * std::min(values.depth[a], height[a]);
+    if (!(g < least)) continue;
+    least = g;
+    opposite = a;
+  }
+  OverlapFunction function{least, {}};
+  function.row[opposite] = std::min(values.depth[opposite], height[opposite]);
+  return function;
 }
 
 OverlapShape body_shape(const ContactParams& params, const std::array<double, 4>& height, const FieldValues& values,
@@ -119,6 +141,8 @@ void advance_field(ContactState& contact) {
 
 OverlapFunction least_function(const std::array<double, 4>& height, const FieldValues& values,
                                const std::array<double, 4>& lambda) {
+  if ((static_cast<unsigned>(values.sets) & kSmallSets) == 0 && (static_cast<unsigned>(values.sets) & kFaceSets) != 0)
+    return least_of_faces(height, values, lambda);
   std::array<double, 4> by_depth{}, by_height{};
   for (std::size_t a = 0; a < 4; ++a) {
     by_depth[a] = lambda[a] * values.depth[a];

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 
 #include "physics/elasticity.hpp"
@@ -19,6 +20,25 @@ struct PreparedTetraOf {
   std::array<std::array<Real, 3>, 3> gradient;  ///< 1/m; NaN for an inert contactor
 };
 using PreparedTetra = PreparedTetraOf<double>;
+
+/// Below this fraction of its reference volume an element is crushed or inverted and touches nothing.
+inline constexpr double kInertVolumeRatio = 0.01;
+
+/// @param x  corners, m, x[corner][axis];  @param volume  m3, at rest. O(1)
+template <class Real, class Corners>
+[[nodiscard]] PreparedTetraOf<Real> prepared_tetra(const Corners& x, const Real& volume) {
+  const Real a0 = x[1][0] - x[0][0], a1 = x[1][1] - x[0][1], a2 = x[1][2] - x[0][2];
+  const Real b0 = x[2][0] - x[0][0], b1 = x[2][1] - x[0][1], b2 = x[2][2] - x[0][2];
+  const Real c0 = x[3][0] - x[0][0], c1 = x[3][1] - x[0][1], c2 = x[3][2] - x[0][2];
+  const Real p0 = b1 * c2 - b2 * c1, p1 = b2 * c0 - b0 * c2, p2 = b0 * c1 - b1 * c0;
+  const Real det = a0 * p0 + a1 * p1 + a2 * p2;
+  const auto alive = det > 6 * kInertVolumeRatio * volume;
+  const Real s = elasticity::select(alive, Real(1.0 / det), Real(std::numeric_limits<double>::quiet_NaN()));
+  return {{x[0][0], x[0][1], x[0][2]},
+          {{{p0 * s, p1 * s, p2 * s},
+            {(c1 * a2 - c2 * a1) * s, (c2 * a0 - c0 * a2) * s, (c0 * a1 - c1 * a0) * s},
+            {(a1 * b2 - a2 * b1) * s, (a2 * b0 - a0 * b2) * s, (a0 * b1 - a1 * b0) * s}}}};
+}
 
 /// A point counts as inside down to this lambda, so that round-off opens no gap between neighbouring elements.
 inline constexpr double kInside = 1e-9;

@@ -1,4 +1,4 @@
-#include "physics/contact/contact_point.hpp"
+#include "physics/contact/geometry/point.hpp"
 
 #include <cmath>
 #include <string>

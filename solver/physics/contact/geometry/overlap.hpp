@@ -9,30 +9,16 @@
 #include "base/types.hpp"
 #include "discretisation/local_mesh.hpp"
 #include "mesh/corner_sets.hpp"
-#include "physics/contact/contact_params.hpp"
-#include "physics/contact/tetra_place.hpp"
+#include "physics/contact/params.hpp"
+#include "physics/contact/geometry/tetra.hpp"
 
 namespace breccia {
 
 /// Overlaps of this share of H and less that the mesh comes with are round-off: bodies touch there without force.
 inline constexpr double kOverlapTolerance = 1e-6;
 
-/// Below this share of its reference volume an element is crushed or inverted and touches nothing.
-inline constexpr double kInertVolumeRatio = 0.01;
-
-/// O(1), branch-free but for the inert case.
 [[nodiscard]] inline PreparedTetra prepare(const std::array<Vec3, 4>& x, double reference_volume) {
-  const double a0 = x[1][0] - x[0][0], a1 = x[1][1] - x[0][1], a2 = x[1][2] - x[0][2];
-  const double b0 = x[2][0] - x[0][0], b1 = x[2][1] - x[0][1], b2 = x[2][2] - x[0][2];
-  const double c0 = x[3][0] - x[0][0], c1 = x[3][1] - x[0][1], c2 = x[3][2] - x[0][2];
-  const double p0 = b1 * c2 - b2 * c1, p1 = b2 * c0 - b0 * c2, p2 = b0 * c1 - b1 * c0;
-  const double det = a0 * p0 + a1 * p1 + a2 * p2;
-  const bool alive = det > 6 * kInertVolumeRatio * reference_volume;
-  const double s = alive ? 1 / det : std::numeric_limits<double>::quiet_NaN();
-  return {{x[0][0], x[0][1], x[0][2]},
-          {{{p0 * s, p1 * s, p2 * s},
-            {(c1 * a2 - c2 * a1) * s, (c2 * a0 - c0 * a2) * s, (c0 * a1 - c1 * a0) * s},
-            {(a1 * b2 - a2 * b1) * s, (a2 * b0 - a0 * b2) * s, (a0 * b1 - a1 * b0) * s}}}};
+  return prepared_tetra<double>(x, reference_volume);
 }
 
 [[nodiscard]] inline bool inert(const PreparedTetra& tetra) { return !(tetra.gradient[0][0] == tetra.gradient[0][0]); }

@@ -1,16 +1,20 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "base/types.hpp"
 #include "mesh/corner_sets.hpp"
-#include "physics/contact/contact_point.hpp"
-#include "physics/contact/friction.hpp"
-#include "physics/contact/overlap.hpp"
+#include "physics/contact/geometry/point.hpp"
+#include "physics/contact/history.hpp"
+#include "physics/number_vector.hpp"
+#include "physics/contact/elements.hpp"
+#include "physics/contact/geometry/overlap.hpp"
 
 namespace breccia {
 
@@ -27,7 +31,14 @@ struct ContactCouple {
 struct PointCouples {
   Index point;
   Index count;
-  double apart_until;  ///< m: the smallest of these couples
+  double apart_until;  ///< m: no more than the smallest of these couples
+};
+
+/// A couple that may come to matter within the next steps, apart from the others, which are many more.
+struct AwakeCouple {
+  Index couple;  ///< index into ContactState::couples
+  Index point, contactor;
+  double apart_until;  ///< m, of the couple, brought up to date here
 };
 
 /// A couple that touches, with its history. It lives as long as the overlap: a point that slides into a neighbouring
@@ -37,23 +48,19 @@ struct PointCouples {
 struct TouchingCouple {
   Index point = 0;
   Index contactor = 0;
-  double d = 0;              ///< overlap over H, offset taken off
-  double d_max = 0;          ///< largest d since the overlap began
-  double offset = 0;         ///< m, overlap without force; < 0: force before an overlap (contact_forces.hpp)
-  Vec3 spring{0, 0, 0};      ///< m, elongation of the friction spring
-  Vec3 friction{0, 0, 0};    ///< N, tangential force on the point
-  DelayedForce delayed{};    ///< normal force that limits friction
-  Vec3 force{0, 0, 0};       ///< N, whole force on the point
-  double balance = 0;        ///< share of its normal force by which the force was changed to balance the work of a step
-  double gained = 0;         ///< J, energy gain since the force began: work beyond absorbed and stored energy
-                             ///< (contact_forces.hpp)
-  double gained_before = 0;  ///< J, the same of earlier overlaps, not yet corrected
+  PairHistory<double> history{};
 };
+
+/// Within one point.
+inline void sort_by_contactor(std::span<TouchingCouple> couples) {
+  const auto before = [](const TouchingCouple& a, const TouchingCouple& b) { return a.contactor < b.contactor; };
+  if (!std::is_sorted(couples.begin(), couples.end(), before)) std::sort(couples.begin(), couples.end(), before);
+}
 
 /// Among CornerSets, where bit 0 stands for no set: fracture has added some to those of the mesh.
 inline constexpr CornerSets kFractured = 1;
 
-/// Overlap field of a contactor (contact_field.hpp).
+/// Overlap field of a contactor (geometry/field.hpp).
 struct FieldValues {
   std::array<double, 4> depth{};  ///< m, at its corners, > 0
   CornerSets sets = 0;            ///< corners on one face of the free surface; kFractured
@@ -68,12 +75,6 @@ using ComingSets = std::array<Index, kNumCornerSets>;
 struct FieldRamp {
   Index contactor = 0;
   ComingSets remaining{}, before{};
-};
-
-/// How an element turns.
-struct ElementTurn {
-  Vec3 curl{0, 0, 0};    ///< 1/s, of its velocities
-  std::uint64_t in = 0;  ///< number of the call of contact_forces, as in `prepared_in`
 };
 
 /// Force of the spherical boundary on a point.
@@ -95,7 +96,7 @@ struct ContactState {
   /// m: every search finds the points that are so near to the box of a contactor.
   double near = std::numeric_limits<double>::infinity();
   std::vector<ContactCouple> couples;  ///< by (point id, contactor)
-  std::vector<PointCouples> by_point;  ///< the same, point by point; made with them (contact_couples.hpp)
+  std::vector<PointCouples> by_point;  ///< the same, point by point; made with them (couples.hpp)
   /// Sum over the steps so far of the largest motion of any node of this rank's couples, m. While it is not counted
   /// (infinite), couples are evaluated in every step.
   double travel = std::numeric_limits<double>::infinity();
@@ -113,14 +114,14 @@ struct ContactState {
   std::vector<BoundaryForce> boundary;   ///< by point id
   std::vector<double> boundary_offset;  ///< (points) m outside the sphere without force: where the point was first seen
 
+  // Derived from the couples (couples.hpp).
+  std::vector<AwakeCouple> awake;  ///< by (point id, contactor): all whose apart_until is less than awake_until
+  double awake_until = -std::numeric_limits<double>::infinity();  ///< m: while `travel` is less the list is complete
+  double travel_before = 0;                                       ///< m, in the last step
+
   // Scratch, worth keeping only for its storage.
   std::vector<TouchingCouple> touching_before;
-  std::vector<PreparedTetra> prepared;
-  std::vector<std::uint64_t> prepared_in;  ///< (prepared) number of the call of contact_forces, from 1
-  std::uint64_t calls = 0;                 ///< of contact_forces
-  std::vector<Index> place;                ///< (contactors) index into `prepared`, -1: not in any couple
-  std::vector<Index> in_couples;           ///< (prepared) contactors that are in some couple
-  std::vector<ElementTurn> turns;          ///< (num_slots) of those that rub, in this step
+  StepElements elements;
 
   [[nodiscard]] bool evaluated(Index slot) const {
     return relevant.empty() || relevant[static_cast<std::size_t>(slot)] != 0;
