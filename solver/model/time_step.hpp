@@ -6,7 +6,7 @@
 #include "mesh/corner_clusters.hpp"
 #include "model/model.hpp"
 #include "model/stage_loads.hpp"
-#include "physics/contact/contact_step.hpp"
+#include "physics/contact/step/contact_step.hpp"
 #include "physics/largest_eigenvalue.hpp"
 #include "physics/stable_step.hpp"
 
@@ -16,7 +16,7 @@ namespace breccia {
 ///
 /// The bound by element is cheap and follows the deformation; at rest the true limit of the linear system without
 /// contact is larger by a ratio that is found once by iteration and kept: fracture makes nothing stiffer. Contact is
-/// added to each element by physics/contact/contact_step.hpp.
+/// added to each element by physics/contact/step/contact_step.hpp.
 class TimeStep {
  public:
   /// @param ranks  the other ranks, where the ratio is not known yet (WholeModel::step_ratio) and the model is a piece:

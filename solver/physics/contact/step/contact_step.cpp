@@ -1,4 +1,4 @@
-#include "physics/contact/contact_step.hpp"
+#include "physics/contact/step/contact_step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@
 
 #include "base/index.hpp"
 #include "mesh/tetrahedron.hpp"
-#include "physics/contact/contact_bound.hpp"
 #include "physics/contact/contact_field.hpp"
 #include "physics/contact/contact_point.hpp"
-#include "physics/contact/patches_nearby.hpp"
+#include "physics/contact/step/bound.hpp"
+#include "physics/contact/step/nearby.hpp"
 
 namespace breccia {
 namespace {

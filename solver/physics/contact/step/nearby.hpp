@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "physics/contact/contact_bound.hpp"
-#include "physics/contact/contact_step.hpp"
-#include "physics/contact/patch_tree.hpp"
+#include "physics/contact/step/bound.hpp"
+#include "physics/contact/step/contact_step.hpp"
+#include "physics/contact/step/patch_tree.hpp"
 
 namespace breccia {
 

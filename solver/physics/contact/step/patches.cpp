@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/index.hpp"
-#include "physics/contact/contact_step.hpp"
+#include "physics/contact/step/contact_step.hpp"
 
 namespace breccia {
 namespace {

@@ -7,8 +7,8 @@
 #include "mesh/quality.hpp"
 #include "physics/contact/contact_field.hpp"
 #include "physics/contact/contact_point.hpp"
-#include "physics/contact/contact_step.hpp"
 #include "physics/contact/overlap.hpp"
+#include "physics/contact/step/contact_step.hpp"
 #include "unit/physics/loads/models.hpp"
 
 namespace breccia::contact_step_test {

@@ -1,4 +1,4 @@
-#include "physics/contact/patches_nearby.hpp"
+#include "physics/contact/step/nearby.hpp"
 
 #include <algorithm>
 #include <cmath>
