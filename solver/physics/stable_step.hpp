@@ -37,6 +37,9 @@ struct StepModel {
   double local_damping = 0;  ///< beta
 };
 
+/// Ratio of viscous to elastic stiffness of pressure waves, s.
+[[nodiscard]] double viscous_ratio(const ElasticParams& params);
+
 enum class StepLimit { element, joint, contact };
 
 /// What contact adds to the corners of an element (contact/step/contact_step.hpp).
