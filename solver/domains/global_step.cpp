@@ -1,7 +1,6 @@
 #include "domains/global_step.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -35,7 +34,7 @@ class Surfaces {
     elements_.update(model_);
     std::int64_t open = 0;
     for (Index s = 0; s < model_.mesh.num_slots; ++s) {
-      if (model_.mesh.is_original(s)) open += std::popcount(faces_.open[at(s)]);
+      if (model_.mesh.is_original(s)) for_each_face(faces_.open[at(s)], [&](int) { ++open; });
     }
     coarsening_ = std::max(1.0, std::cbrt(static_cast<double>(communicator.sum(open)) / kMostFaces));
   }

@@ -44,14 +44,14 @@ class ContactElements {
   [[nodiscard]] const std::vector<double>& largest() const { return largest_; }
 
  private:
-  [[nodiscard]] bool shared_changed(const ContactStepModel& model);
   void raise_largest(const ContactStepModel& model, const Entry& entry);
 
   std::vector<Index> place_;  ///< (slots) in list_, -1: has had no open face
   std::vector<Entry> list_;
   std::vector<double> largest_;
-  std::vector<std::uint8_t> shared_open_, shared_held_;  ///< of shared-node elements and of shared nodes, at the last
-                                                         ///< update
+  // At the last update:
+  std::vector<std::uint8_t> own_held_, shared_held_;  ///< nodes of both kinds
+  std::vector<std::uint8_t> shared_open_;             ///< elements that share nodes
 };
 
 }  // namespace breccia
