@@ -46,8 +46,8 @@ struct LaneVector {
   }
 };
 
-/// Vectors over a number type: LaneVector, of doubles Vec3 (number_vector.hpp, which units of wider instruction sets cannot
-/// include: Eigen demands FMA there, which changes the bits).
+/// Vectors over a number type: LaneVector, of doubles Vec3 (number_vector.hpp, which units of wider instruction sets
+/// cannot include: Eigen demands FMA there, which changes the bits).
 template <class T>
 struct VectorOver {
   using Type = LaneVector<T>;

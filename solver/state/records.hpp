@@ -120,7 +120,7 @@ struct FieldTable<CoupleRecord> {
       FieldRow{"element", "1", kState, [](auto& r) -> auto& { return r.element; }},
       FieldRow{"contactor", "1", kState, [](auto& r) -> auto& { return r.contactor; }},
       FieldRow{"point", "1", kState, [](auto& r) -> auto& { return r.point; }},
-      FieldRow{"history", "as in physics/contact/history.hpp", kState, [](auto& r) -> auto& { return r.couple.history; }},
+      FieldRow{"history", "see contact/history.hpp", kState, [](auto& r) -> auto& { return r.couple.history; }},
   };
 // clang-format on
 }

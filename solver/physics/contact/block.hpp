@@ -42,27 +42,27 @@ struct alignas(64) LocateBlock {
 /// places are computed too and discarded.
 struct alignas(64) PairBlock {
   const StepElement* contactor[kLanes] = {};
-  const double* velocity[3][kLanes] = {};   ///< m/s, of the nodes of the point's face, three numbers each
-  ContactRow shape[3], lambda[4];           ///< of the point on its face and in the contactor
-  ContactRow depth[4];                      ///< m, coefficients of the overlap function that counts
-  ContactRow overlap, overlap_before;       ///< m, g by the field of now and of one step ago
+  const double* velocity[3][kLanes] = {};  ///< m/s, of the nodes of the point's face, three numbers each
+  ContactRow shape[3], lambda[4];          ///< of the point on its face and in the contactor
+  ContactRow depth[4];                     ///< m, coefficients of the overlap function that counts
+  ContactRow overlap, overlap_before;      ///< m, g by the field of now and of one step ago
   ContactLawOf<ContactRow> law;
-  ContactRow weight = 1.0, length = 1.0;    ///< m2 of the point; m, H of the contactor's body
-  ContactRow longest_delay;                 ///< s
-  ContactRow rotation[3];                   ///< rad, of the two elements in the mean
-  ContactRow continues;                     ///< 1: the couple touched one step ago, 0: not
+  ContactRow weight = 1.0, length = 1.0;  ///< m2 of the point; m, H of the contactor's body
+  ContactRow longest_delay;               ///< s
+  ContactRow rotation[3];                 ///< rad, of the two elements in the mean
+  ContactRow continues;                   ///< 1: the couple touched one step ago, 0: not
   // Of the motion of the last step.
-  ContactRow motion[3];                     ///< m, of the point relative to the contactor's material
-  ContactRow gradient[3];                   ///< -, of the overlap
-  ContactRow turn;                          ///< m, gradient times motion less the change of the overlap
-  ContactRow held_by_old_law;               ///< J, what the couple held beyond what it would have by its present law
-  ContactRow damping_before;                ///< J, twice the work of the damping force of one step ago over the motion
-  std::uint8_t same_slope[kLanes] = {};     ///< 1: the overlap has changed as the gradient says; 0: it has not, or
-                                            ///< nothing has moved
-  PairHistory<ContactRow> history;          ///< one step ago, then now
+  ContactRow motion[3];                  ///< m, of the point relative to the contactor's material
+  ContactRow gradient[3];                ///< -, of the overlap
+  ContactRow turn;                       ///< m, gradient times motion less the change of the overlap
+  ContactRow stored_by_old_law;          ///< J, energy of the couple by its former law less that by the present one
+  ContactRow damping_before;             ///< J, twice the work of the damping force of one step ago over the motion
+  std::uint8_t same_slope[kLanes] = {};  ///< 1: the overlap has changed by gradient times motion; 0: not, or
+                                         ///< nothing has moved
+  PairHistory<ContactRow> history;       ///< one step ago, then now
   // Energies, J.
-  ContactRow stored, stored_in_spring;      ///< now
-  ContactRow lost, damped, rubbed;          ///< dissipated in this step by the normal law, by damping, by friction
+  ContactRow stored, stored_in_spring;  ///< now
+  ContactRow lost, damped, rubbed;      ///< dissipated in this step by the normal law, by damping, by friction
 };
 
 using LocateKernel = void (*)(LocateBlock& block);

@@ -24,7 +24,7 @@ class StepElements {
  public:
   struct Block {
     std::array<StepElement, kLanes> elements;
-    Index index;                  ///< of the block of slots
+    Index index;                                  ///< of the block of slots
     std::uint64_t prepared_in = 0, acted_in = 0;  ///< number of the step; when a force was last added
   };
 
@@ -70,7 +70,7 @@ class StepElements {
  private:
   std::vector<Block*> of_slots_;  ///< (blocks of slots) null: never needed
   std::deque<Block> blocks_;
-  std::vector<Block*> used_;      ///< of this step
+  std::vector<Block*> used_;  ///< of this step
   std::uint64_t step_ = 0;
 };
 

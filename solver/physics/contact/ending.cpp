@@ -36,7 +36,7 @@ void EndedCouples::end(const TouchingCouple& old, double lost) {
     lost += released;
   }
   // A contactor that was crushed while it was touched gives nothing back.
-  if (crushed) return view_.account(point, pair_step::held_by_overlap(pair, last), work_.dissipated);
+  if (crushed) return view_.account(point, pair_step::stored_in_overlap(pair, last), work_.dissipated);
   const Escape escape = escape_of(old, pair, lambda, motion);
   view_.account(point, escape.lost, work_.dissipated);
   if (escape.is_over) return;
@@ -44,7 +44,7 @@ void EndedCouples::end(const TouchingCouple& old, double lost) {
   TouchingCouple ended{old.point, old.contactor, {.delayed = without_overlap(view_.dt(), last.delayed)}};
   if (view_.rules().remembered_gain) ended.history.gained_before = last.gained_before;
   if (!at_rest) {
-    ended.history.gained = last.gained + 0.5 * last.force.dot(motion) - pair_step::held(pair, last) + lost;
+    ended.history.gained = last.gained + 0.5 * last.force.dot(motion) - pair_step::stored_energy(pair, last) + lost;
     const Vec3 force = pull(pair, last, motion, ended.history);
     if (force != Vec3::Zero()) forces_.push_back({old.point, old.contactor, lambda, force});
   }
@@ -58,15 +58,17 @@ EndedCouples::Escape EndedCouples::escape_of(const TouchingCouple& old, const Co
   const Index contactor = old.contactor;
   // By the sides of the last step: those of now may be others, where a body rolls and a side has turned away.
   const bool has_sides = view_.has_sides(contactor);
-  const double overlap =
-      has_sides ? overlap_value(view_.shape_of(contactor), lambda,
-                                view_.one_step_ago(view_.point(old.point), contactor).rows)
-      : view_.is_growing(contactor) ? overlap_value(view_.shape_of(contactor), lambda)
-                                    : view_.least_function_of(contactor, lambda).g;
+  const auto depth_by_sides = [&] {
+    const OverlapRows rows = view_.one_step_ago(view_.point(old.point), contactor).rows;
+    return overlap_value(view_.shape_of(contactor), lambda, rows);
+  };
+  const double overlap = has_sides                     ? depth_by_sides()
+                         : view_.is_growing(contactor) ? overlap_value(view_.shape_of(contactor), lambda)
+                                                       : view_.least_function_of(contactor, lambda).g;
   if (!(overlap > 0)) return {overlap, 0.0, false};
   const PairHistory<double>& last = old.history;
   const double work = has_sides ? 0.5 * (last.force - last.friction).dot(motion) : 0.0;
-  return {overlap, std::max(pair_step::held_by_overlap(pair, last) - work, 0.0), !has_sides};
+  return {overlap, std::max(pair_step::stored_in_overlap(pair, last) - work, 0.0), !has_sides};
 }
 
 /// Keeps a couple that has ended as long as it exerts a force, or may soon touch again and has something to correct.

@@ -27,16 +27,16 @@ template <class T>
 struct ContactPair {
   using Vector = VectorOf<T>;
   ContactLawOf<T> law;
-  T weight, length;                 ///< m2 of the point; m, H of the contactor's body
+  T weight, length;                       ///< m2 of the point; m, H of the contactor's body
   T overlap = 0.0, overlap_before = 0.0;  ///< m, g by the field of now and of one step ago
-  Vector motion{0.0, 0.0, 0.0};     ///< m, of the point relative to the contactor's material in the last step
-  Vector gradient{0.0, 0.0, 0.0};   ///< -, of the overlap, inwards
-  T turn = 0.0;                     ///< m, gradient times motion less the change of the overlap
-  T longest_delay = 0.0;            ///< s, of friction
-  Vector rotation{0.0, 0.0, 0.0};   ///< rad, of the two elements in the mean
-  T continues = 0.0;                ///< 1: it touched one step ago, 0: not
-  T held_by_old_law = 0.0;          ///< J, what it held beyond what it would have by its present law
-  T damping_before = 0.0;           ///< J, twice the work of the damping force of one step ago over the motion
+  Vector motion{0.0, 0.0, 0.0};           ///< m, of the point relative to the contactor's material in the last step
+  Vector gradient{0.0, 0.0, 0.0};         ///< -, of the overlap, inwards
+  T turn = 0.0;                           ///< m, gradient times motion less the change of the overlap
+  T longest_delay = 0.0;                  ///< s, of friction
+  Vector rotation{0.0, 0.0, 0.0};         ///< rad, of the two elements in the mean
+  T continues = 0.0;                      ///< 1: it touched one step ago, 0: not
+  T stored_by_old_law = 0.0;              ///< J, energy by its former law less that by the present one
+  T damping_before = 0.0;                 ///< J, twice the work of the damping force of one step ago over the motion
   EvaluationRules rules{};
 
   /// N/m, along the normal.
@@ -48,8 +48,8 @@ struct ContactPair {
 /// J, of one couple in one step.
 template <class T>
 struct PairEnergies {
-  T stored = 0.0, stored_in_spring = 0.0;      ///< now
-  T lost = 0.0, damped = 0.0, rubbed = 0.0;    ///< dissipated by the normal law, by damping, by friction
+  T stored = 0.0, stored_in_spring = 0.0;    ///< now
+  T lost = 0.0, damped = 0.0, rubbed = 0.0;  ///< dissipated by the normal law, by damping, by friction
 };
 
 namespace pair_step {
@@ -69,14 +69,14 @@ template <class Vector>
   return v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0;
 }
 
-/// J, that a couple holds by its normal law; and by its spring as well.
+/// J, of the normal law; and of the spring as well.
 template <class T>
-[[nodiscard]] inline T held_by_overlap(const ContactPair<T>& pair, const PairHistory<T>& h) {
+[[nodiscard]] inline T stored_in_overlap(const ContactPair<T>& pair, const PairHistory<T>& h) {
   return pair.weight * pair.length * normal_law::stored(pair.law, h.d, h.d_max);
 }
 template <class T>
-[[nodiscard]] inline T held(const ContactPair<T>& pair, const PairHistory<T>& h) {
-  return held_by_overlap(pair, h) + 0.5 * pair.spring_stiffness() * h.spring.squaredNorm();
+[[nodiscard]] inline T stored_energy(const ContactPair<T>& pair, const PairHistory<T>& h) {
+  return stored_in_overlap(pair, h) + 0.5 * pair.spring_stiffness() * h.spring.squaredNorm();
 }
 
 /// The overlap becomes g. @return  J/(m2 m) dissipated
@@ -171,7 +171,8 @@ inline void correct(const ContactPair<T>& pair, const T& stored, const Mask<T>& 
   const T gained = h.gained + select(leaves, T(0.5 * work - stored), T(0.0));
   const auto is_steep = pair.law.exponent > 1.0 && work > 0.0;
   BalancingLimitsOf<T> limits = balancing_limits(work, k, out);
-  if (pair.rules.steep_correction && any(is_steep)) limits = select_limits(is_steep, steep_limits(work, k, pair.law.exponent, out), limits);
+  if (pair.rules.steep_correction && any(is_steep))
+    limits = select_limits(is_steep, steep_limits(work, k, pair.law.exponent, out), limits);
   const BalancingSharesOf<T> shares = balancing_shares(gained, h.gained_before, work, limits);
   const T balance = shares.own + shares.before;
   h.balance = select(works, balance, h.balance);
@@ -208,7 +209,7 @@ template <class T>
   // What a couple holds that was there before anything moved has been put in.
   const auto counts = acts && (pair.continues > 0.0 || any_component(pair.motion));
   const T kept = e.stored + e.damped + (e.stored_in_spring + e.rubbed) + 0.5 * pressure * pair.turn;
-  const T before = select(pair.continues > 0.0, T(held(pair, last) + pair.held_by_old_law), T(0.0));
+  const T before = select(pair.continues > 0.0, T(stored_energy(pair, last) + pair.stored_by_old_law), T(0.0));
   const T gain = 0.5 * (last.force + h.force).dot(pair.motion) + kept - before + e.lost;
   h.gained = select(counts, T(h.gained + gain), h.gained);
   if (pair.rules.correction) correct(pair, e.stored, counts, h);

@@ -27,13 +27,13 @@ struct ContactWork {
 ///
 ///   normal    f_p = -w sigma(d) grad g,  d = max(0, g - offset) / H,  the negative gradient of w H integral sigma dd
 ///             with damping normal_law::damped in place of sigma
-///   friction  law/coulomb.hpp with k = tangential_ratio w sigma_p / H, limit mu f, where f follows w sigma |grad g| with
-///             a delay of up to friction_delay times the extent of the smaller body
+///   friction  law/coulomb.hpp with k = tangential_ratio w sigma_p / H, limit mu f, where f follows w sigma |grad g|
+///             with a delay of up to friction_delay times the extent of the smaller body
 ///   target    + N_i f_p on the corners of its face;  contactor: - lambda_a f_p on its corners
 ///
 /// so linear and angular momentum are conserved to round-off for any direction of f_p. A couple keeps its history while
-/// it touches; when the point has moved to another contactor of the same body that shares a mesh vertex with the old one
-/// the history is kept. Each couple accumulates its energy gain, the work of its forces by central differences beyond
+/// it touches; when the point has moved to another contactor of the same body that shares a mesh vertex with the old
+/// one the history is kept. Each couple accumulates its energy gain, the work of its forces by central differences beyond
 /// the absorbed, stored and dissipated energy; a change of the normal force corrects it (correction.hpp), after
 /// separation (d = 0) a small pull.
 /// Rules of sides, histories and first overlaps: resolve.hpp and solver/manual/theory/contact.md.

@@ -96,7 +96,9 @@ struct Some {
 template <class Real>
 inline void prepare(const double* x, const double* v, const double* volume, StepElement* elements, std::size_t first) {
   using Vector = LaneVector<Real>;
-  const auto load = [first](const double* row) { return of_lanes<Real>([&](std::size_t l) { return row[first + l]; }); };
+  const auto load = [first](const double* row) {
+    return of_lanes<Real>([&](std::size_t l) { return row[first + l]; });
+  };
   std::array<Vector, 4> corner, velocity;
   for (std::size_t c = 0; c < 4; ++c) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -168,11 +170,11 @@ inline void move(double dt, PairBlock& b, std::size_t first) {
   Vector gradient{Real(0.0), Real(0.0), Real(0.0)};
   const Real depth = at.load(b.depth[0]);
   for (std::size_t c = 0; c < 3; ++c) {
-    gradient += (at.load(b.depth[c + 1]) - depth) * at.gather([&](std::size_t axis, std::size_t l) {
-                  return b.contactor[l]->tetra.gradient[c][axis];
-                });
+    gradient += (at.load(b.depth[c + 1]) - depth) *
+                at.gather([&](std::size_t axis, std::size_t l) { return b.contactor[l]->tetra.gradient[c][axis]; });
   }
-  const Real change = at.load(b.overlap_before) - (at.load(b.history.d) * at.load(b.length) + at.load(b.history.offset));
+  const Real change =
+      at.load(b.overlap_before) - (at.load(b.history.d) * at.load(b.length) + at.load(b.history.offset));
   const Real along = gradient.dot(motion);
   const auto same = pair_step::any_component(motion) && abs(change - along) <= kSameSlope * motion.norm();
   at.store(motion, b.motion);
@@ -197,7 +199,7 @@ inline void evaluate_some(double dt, const EvaluationRules& rules, PairBlock& b,
   pair.longest_delay = at.load(b.longest_delay);
   pair.rotation = at.load(b.rotation);
   pair.continues = at.load(b.continues);
-  pair.held_by_old_law = at.load(b.held_by_old_law);
+  pair.stored_by_old_law = at.load(b.stored_by_old_law);
   pair.damping_before = at.load(b.damping_before);
   pair.rules = rules;
   PairHistory<Real> h;

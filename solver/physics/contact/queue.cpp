@@ -97,10 +97,9 @@ void PairQueue::fill_laws(Index index, const Candidate& candidate, std::size_t l
   for_each_law_number([lane](const double& x, ContactRow& row) { row[lane] = x; }, law, block_.law);
   block_.weight[lane] = point.weight;
   block_.length[lane] = view_.length_of(contactor);
-  block_.longest_delay[lane] =
-      view_.rules().friction_lag_stages > 0 ? view_.longest_delay(law, index, contactor) : 0.0;
+  block_.longest_delay[lane] = view_.rules().friction_lag_stages > 0 ? view_.longest_delay(law, index, contactor) : 0.0;
   block_.continues[lane] = candidate.old >= 0 ? 1 : 0;
-  block_.held_by_old_law[lane] = block_.damping_before[lane] = 0;
+  block_.stored_by_old_law[lane] = block_.damping_before[lane] = 0;
   put(Vec3::Zero(), lane, block_.rotation);
   if (candidate.old < 0) return;
   const TouchingCouple& old = contact_.touching_before[at(candidate.old)];
@@ -108,8 +107,8 @@ void PairQueue::fill_laws(Index index, const Candidate& candidate, std::size_t l
   if (h.spring != Vec3::Zero() && view_.rules().spring_turns)
     put(view_.mean_rotation(point, contactor), lane, block_.rotation);
   if (old.contactor == contactor || &view_.law_of(index, old.contactor) == &law) return;
-  block_.held_by_old_law[lane] =
-      pair_step::held(view_.pair_of(index, old.contactor), h) - pair_step::held(view_.pair_of(index, contactor), h);
+  block_.stored_by_old_law[lane] = pair_step::stored_energy(view_.pair_of(index, old.contactor), h) -
+                                   pair_step::stored_energy(view_.pair_of(index, contactor), h);
 }
 
 /// Evaluates the block, and adds all forces in the order in which they came.
@@ -163,8 +162,8 @@ double PairQueue::damping_before(std::size_t lane) const {
   const OverlapShape& shape = view_.shape_of(old.contactor, Instant::step_before);
   const Vec3 last = inert(then.tetra) ? gradient : overlap(shape, then.tetra, then.lambda, then.rows).gradient;
   const ContactLaw& law = view_.law_of(index, candidate.contactor);
-  const double before = (h.force - h.friction).norm() / (factor * last.norm()) -
-                        point.weight * normal_law::stress(law, h.d, h.d_max);
+  const double before =
+      (h.force - h.friction).norm() / (factor * last.norm()) - point.weight * normal_law::stress(law, h.d, h.d_max);
   return before * (turn == 0 ? last.dot(motion) : gradient.dot(motion) - turn);
 }
 
@@ -179,7 +178,8 @@ void PairQueue::take_results(std::size_t lane) {
   view_.account(point, block_.stored_in_spring[lane], work_.friction_stored);
   view_.account(point, block_.stored[lane], work_.stored);
   PairHistory<double>& h = contact_.touching[place].history;
-  for_each_pair_number([lane](const PairNumber&, double& x, const ContactRow& row) { x = row[lane]; }, h, block_.history);
+  for_each_pair_number([lane](const PairNumber&, double& x, const ContactRow& row) { x = row[lane]; }, h,
+                       block_.history);
   if (h.d > 0 && view_.local().is_original(point.slot)) ++work_.touching;
   Vec3 force = h.force;
   if (force == Vec3::Zero()) {
@@ -191,8 +191,8 @@ void PairQueue::take_results(std::size_t lane) {
   view_.add_force(point, candidate.contactor, candidate.lambda, force);
 }
 
-/// The overlap has ended although the point is in the contactor: its field has changed. The couple ends by the law and on
-/// the contactor that it had.
+/// The overlap has ended although the point is in the contactor: its field has changed. The couple ends by the law and
+/// on the contactor that it had.
 void PairQueue::end_inside(std::size_t lane) {
   const auto& [index, place, candidate, offset] = lanes_[lane];
   TouchingCouple last{index, candidate.contactor, history_before(candidate)};

@@ -16,8 +16,8 @@ namespace breccia {
 /// in the order in which they came.
 class PairQueue {
  public:
-  PairQueue(ContactView& view, const Resolver& resolver, EndedCouples& ended, ContactState& contact,
-            ContactWork& work, const ContactKernels& kernels)
+  PairQueue(ContactView& view, const Resolver& resolver, EndedCouples& ended, ContactState& contact, ContactWork& work,
+            const ContactKernels& kernels)
       : view_(view),
         resolver_(resolver),
         ended_(ended),

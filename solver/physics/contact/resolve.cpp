@@ -87,8 +87,7 @@ const Nearby* Resolver::facing_more(const ContactPoint& point, std::span<const N
     const Index contactor = here.couple->contactor;
     // Most surfaces of debris have no distinguished sides.
     if (!view_.has_sides(contactor) || !view_.are_neighbours(contactor, candidate)) continue;
-    if (!most)
-      most = rows_facing(view_.shape_of(candidate), view_.tetra_of(candidate), view_.outward_of(point)).facing;
+    if (!most) most = rows_facing(view_.shape_of(candidate), view_.tetra_of(candidate), view_.outward_of(point)).facing;
     if (best == nullptr && *most == Facing::well) return nullptr;
     const Facing facing = side_over(point, here);
     const bool nearer = best != nullptr && facing == *most && smallest(here.lambda) > smallest(best->lambda);
@@ -228,8 +227,8 @@ void Resolver::switch_gradient(const ContactPoint& point, const Candidate& candi
   double along_before = 0;
   if (!inert(last.tetra)) {
     const OverlapShape& shape = view_.shape_of(old.contactor, Instant::step_before);
-    const bool same = old.contactor == candidate.contactor && least_row(shape, last.lambda, last.rows) ==
-                                                                  least_row(shape, candidate.lambda, candidate.rows);
+    const bool same = old.contactor == candidate.contactor &&
+                      least_row(shape, last.lambda, last.rows) == least_row(shape, candidate.lambda, candidate.rows);
     if (was_kept && same) return;
     along_before = overlap(shape, last.tetra, last.lambda, last.rows).gradient.dot(motion);
   }
@@ -264,14 +263,12 @@ bool Resolver::comes_from_beside(const ContactPoint& point, const Candidate& can
 
 bool Resolver::is_fresh(const ContactCouple& couple) const {
   const auto& fresh = contact_.fresh;
-  return std::binary_search(
-      fresh.begin(), fresh.end(), couple,
-      [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
+  return std::binary_search(fresh.begin(), fresh.end(), couple,
+                            [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
 }
 
 /// Overlap that makes no force, m, of a couple seen for the first time.
-double Resolver::first_offset(Index point, const Candidate& candidate, const Vec3& motion,
-                              const Vec3& gradient) const {
+double Resolver::first_offset(Index point, const Candidate& candidate, const Vec3& motion, const Vec3& gradient) const {
   const Index contactor = candidate.contactor;
   if (is_fresh({point, contactor}) || view_.shares_vertex(point, contactor)) return std::max(candidate.g_before, 0.0);
   // A point that comes through a gap between elements, such as an open joint, is deep inside at once: deeper than it

@@ -38,8 +38,8 @@ struct Adjusted {
   double turn = 0;        ///< m, as in ContactPair
 };
 
-/// From points to couples: which elements hold a point, which side of their surface counts, which history continues, and
-/// which overlap makes no force. These are the only rules of contact; what follows from them is evaluate.hpp.
+/// From points to couples: which elements contain a point, which side of their surface counts, which history continues,
+/// and which overlap makes no force. These are the only rules of contact; what follows from them is evaluate.hpp.
 class Resolver {
  public:
   Resolver(ContactView& view, ContactState& contact, EndedCouples& ended)
@@ -49,8 +49,7 @@ class Resolver {
   /// none of them continues end, as do those of all points before.
   /// @param inside, beside  couples whose contactor holds it; just beside which it lies. Ascending. To be called for
   /// points in ascending order
-  [[nodiscard]] std::span<Candidate> candidates(Index point, std::span<const Nearby> inside,
-                                                std::span<Nearby> beside);
+  [[nodiscard]] std::span<Candidate> candidates(Index point, std::span<const Nearby> inside, std::span<Nearby> beside);
   /// After the last point: all other couples of the last step end.
   void finish();
 

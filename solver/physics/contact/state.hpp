@@ -10,11 +10,11 @@
 
 #include "base/types.hpp"
 #include "mesh/corner_sets.hpp"
+#include "physics/contact/elements.hpp"
+#include "physics/contact/geometry/overlap.hpp"
 #include "physics/contact/geometry/point.hpp"
 #include "physics/contact/history.hpp"
 #include "physics/number_vector.hpp"
-#include "physics/contact/elements.hpp"
-#include "physics/contact/geometry/overlap.hpp"
 
 namespace breccia {
 

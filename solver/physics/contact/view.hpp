@@ -10,9 +10,9 @@
 #include "physics/contact/block.hpp"
 #include "physics/contact/evaluate.hpp"
 #include "physics/contact/geometry/field.hpp"
-#include "physics/number_vector.hpp"
 #include "physics/contact/params.hpp"
 #include "physics/contact/state.hpp"
+#include "physics/number_vector.hpp"
 
 /// For the sources of physics/contact alone.
 namespace breccia {

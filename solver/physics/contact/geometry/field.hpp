@@ -1,9 +1,9 @@
 #pragma once
 
 #include "mesh/surface_depth.hpp"
+#include "physics/contact/geometry/overlap.hpp"
 #include "physics/contact/params.hpp"
 #include "physics/contact/state.hpp"
-#include "physics/contact/geometry/overlap.hpp"
 
 namespace breccia {
 

@@ -9,8 +9,8 @@
 #include "base/types.hpp"
 #include "discretisation/local_mesh.hpp"
 #include "mesh/corner_sets.hpp"
-#include "physics/contact/params.hpp"
 #include "physics/contact/geometry/tetra.hpp"
+#include "physics/contact/params.hpp"
 
 namespace breccia {
 

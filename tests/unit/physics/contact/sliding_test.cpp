@@ -59,7 +59,9 @@ Drag settled_drag(double depth) {
   return drag;
 }
 double longest_delay(const Drag& drag) { return 10 * drag.scene.contact.body_extent[1]; }
-double depth_of(const Drag& drag) { return drag.scene.contact.touching.front().history.d * drag.scene.contact.body_length[0]; }
+double depth_of(const Drag& drag) {
+  return drag.scene.contact.touching.front().history.d * drag.scene.contact.body_length[0];
+}
 
 TEST(Sliding, FrictionFollowsTheNormalForceLateByCrossingsOfTheSmallerBody) {
   Drag drag = settled_drag(0.02);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "physics/contact/contact_step.hpp"
+#include "physics/contact/step/contact_step.hpp"
 
 namespace breccia {
 

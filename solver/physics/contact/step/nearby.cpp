@@ -1,8 +1,7 @@
-#include "physics/contact/patches_nearby.hpp"
+#include "physics/contact/step/nearby.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace breccia {
 namespace {
@@ -94,29 +93,29 @@ Patch joined(Patch p, const Patch& q) {
   return p;
 }
 
-/// By group, ascending.
+/// One a group.
 std::vector<Patch> joined_by_group(std::span<const Patch> patches) {
-  std::map<std::int64_t, Patch> groups;
+  std::vector<Patch> groups;
   for (const Patch& p : patches) {
-    const auto [place, fresh] = groups.emplace(p.group, p);
-    if (!fresh) place->second = joined(place->second, p);
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const Patch& g) { return g.group == p.group; });
+    if (same == groups.end())
+      groups.push_back(p);
+    else
+      same->raise_all(p);
   }
-  std::vector<Patch> list;
-  list.reserve(groups.size());
-  for (const auto& [group, patch] : groups) list.push_back(patch);
-  return list;
+  std::sort(groups.begin(), groups.end(), [](const Patch& p, const Patch& q) { return p.group < q.group; });
+  return groups;
 }
 
 }  // namespace
 
+PatchesNearby::Tree::Tree(std::span<const Patch> patches, double time)
+    : boxes(grown_boxes(patches, time)),
+      tree(boxes),
+      largest(tree.by_node<Patch>([&](std::int32_t i) { return patches[static_cast<std::size_t>(i)]; }, joined)) {}
+
 PatchesNearby::PatchesNearby(const ContactParams& params, std::span<const Patch> patches, double time)
-    : params_(params),
-      patches_(patches),
-      time_(time),
-      boxes_(grown_boxes(patches, time)),
-      tree_(boxes_),
-      largest_(tree_.by_node<Patch>([&](std::int32_t i) { return patches[static_cast<std::size_t>(i)]; }, joined)),
-      of_groups_(joined_by_group(patches)) {}
+    : params_(params), patches_(patches), time_(time), of_groups_(joined_by_group(patches)) {}
 
 std::vector<ContactBound> PatchesNearby::bounds_anywhere(const Patch& patch) const {
   std::vector<ContactBound> found;
@@ -124,14 +123,15 @@ std::vector<ContactBound> PatchesNearby::bounds_anywhere(const Patch& patch) con
   return found;
 }
 
-std::vector<ContactBound> PatchesNearby::bounds(std::size_t p) const {
+std::vector<ContactBound> PatchesNearby::bounds(std::size_t p) {
+  if (!tree_) tree_ = std::make_unique<Tree>(patches_, time_);
   const Patch& mine = patches_[p];
   std::vector<ContactBound> found;
   const auto adds_nothing = [&](const Patch& other) {
     return !found.empty() && other.group != kSeveral && dominated(contact_bound(params_, mine, other), found);
   };
-  tree_.query(
-      boxes_[p], [&](std::size_t node) { return adds_nothing(largest_[node]); },
+  tree_->tree.query(
+      tree_->boxes[p], [&](std::size_t node) { return adds_nothing(tree_->largest[node]); },
       [&](std::int32_t place) {
         const Patch& other = patches_[static_cast<std::size_t>(place)];
         if (!adds_nothing(other) && may_meet(params_, mine, other, time_))

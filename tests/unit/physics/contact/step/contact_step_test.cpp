@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "mesh/quality.hpp"
 #include "physics/contact/geometry/field.hpp"
-#include "physics/contact/geometry/point.hpp"
-#include "physics/contact/contact_step.hpp"
 #include "physics/contact/geometry/overlap.hpp"
+#include "physics/contact/geometry/point.hpp"
+#include "physics/contact/step/contact_step.hpp"
+#include "physics/contact/step/elements.hpp"
+#include "physics/contact/step/upper_bounds.hpp"
 #include "unit/physics/loads/models.hpp"
 
 namespace breccia::contact_step_test {
@@ -63,9 +66,18 @@ struct Scene {
     for_each_node_of(body, [&](Index n) { held[at(n)] = 1; });
   }
 
+  [[nodiscard]] ContactElements elements() const {
+    ContactElements all;
+    all.update(step_model());
+    return all;
+  }
+  [[nodiscard]] ContactPatches patches() const {
+    return contact_patches(step_model(), elements(), model.state.position, model.state.velocity, 1.0);
+  }
   [[nodiscard]] std::vector<ContactShare> shares(double time = 0) const {
-    const auto patches = contact_patches(step_model(), model.state.position, model.state.velocity, 1.0);
-    return contact_shares(step_model(), patches, time);
+    ContactPatches sorted = patches();
+    sorted.sort();
+    return contact_shares(step_model(), elements(), sorted, time);
   }
   [[nodiscard]] double largest(double time = 0) const {
     double most = 0;
@@ -211,7 +223,7 @@ TEST(ContactStep, IsTheSameBitsFromAnyPartsOfTheModel) {
   Scene whole(test::box({2, 2, 2}, 1.0, {2, 2, 2}, 0.05));
   for (Index b = 0; b < 8; ++b) whole.fly(b, {0.1 * b, -0.2 * b, 0.05 * b * b});
   const auto expected = whole.shares(0.3);
-  std::vector<ContactPatch> of_all;
+  std::vector<std::vector<ContactPatch>> of_all;
   std::vector<Scene> parts;
   std::vector<ContactPatches> patches;
   for (const GlobalId part : {0, 1, 2}) {
@@ -219,13 +231,14 @@ TEST(ContactStep, IsTheSameBitsFromAnyPartsOfTheModel) {
     for (Index s = 0; s < mine.model.local.num_slots; ++s) {
       if (mine.model.local.element_of_slot[at(s)] % 3 != part) mine.model.local.original[at(s)] = 0;
     }
-    patches.push_back(contact_patches(mine.step_model(), mine.model.state.position, mine.model.state.velocity, 1.0));
-    of_all.insert(of_all.begin(), patches.back().list.begin(), patches.back().list.end());
+    patches.push_back(mine.patches());
+    of_all.insert(of_all.begin(), patches.back().list);
   }
   for (std::size_t part = 0; part < parts.size(); ++part) {
     const Scene& mine = parts[part];
     patches[part].merge(of_all);
-    const auto shares = contact_shares(mine.step_model(), patches[part], 0.3);
+    patches[part].sort();
+    const auto shares = contact_shares(mine.step_model(), mine.elements(), patches[part], 0.3);
     for (Index s = 0; s < mine.model.local.num_slots; ++s) {
       if (!mine.model.local.is_original(s)) continue;
       EXPECT_EQ(shares[at(s)].omega_squared, expected[at(s)].omega_squared);
@@ -241,13 +254,10 @@ Scene uneven_boxes() {
   return scene;
 }
 
-ContactPatches patches_of(const Scene& scene) {
-  return contact_patches(scene.step_model(), scene.model.state.position, scene.model.state.velocity, 1.0);
-}
-
 TEST(ContactStep, IsTheLargestOfAllPairsOfBodies) {
   const Scene scene = uneven_boxes();
-  const ContactPatches patches = patches_of(scene);
+  const ContactPatches patches = scene.patches();
+  const ContactElements elements = scene.elements();
   const auto all = scene.shares(0.3);
   std::vector<std::array<double, 4>> largest(all.size());
   int met = 0;
@@ -260,7 +270,7 @@ TEST(ContactStep, IsTheLargestOfAllPairsOfBodies) {
         p.largest[ContactPatch::box] -= 1e9;  // out of the way
         p.largest[ContactPatch::box + 3] += 1e9;
       }
-      ContactShares shares(scene.step_model(), two, 0.3);
+      ContactShares shares(scene.step_model(), elements, two, 0.3);
       for (Index s = 0; s < scene.model.local.num_slots; ++s) {
         if (!scene.model.local.is_original(s) || scene.body_of(s) != a) continue;
         const ContactShare share = shares.of(s);
@@ -275,8 +285,9 @@ TEST(ContactStep, IsTheLargestOfAllPairsOfBodies) {
 
 TEST(ContactStep, IsNeverMoreThanWhatIsFoundWithoutLookingWhoIsNear) {
   const Scene scene = uneven_boxes();
-  const ContactPatches patches = patches_of(scene);
-  ContactShares shares(scene.step_model(), patches, 0.3);
+  const ContactPatches patches = scene.patches();
+  const ContactElements elements = scene.elements();
+  ContactShares shares(scene.step_model(), elements, patches, 0.3);
   for (Index s = 0; s < scene.model.local.num_slots; ++s) {
     if (!scene.model.local.is_original(s)) continue;
     EXPECT_LE(shares.of(s).largest(), shares.at_most(s));
@@ -292,8 +303,8 @@ TEST(ContactStep, GrowsWithTheSlopeOfUnloading) {
   EXPECT_EQ(stiffest_slope(law), 4 * kPenalty);
 }
 
-TEST(ContactStep, IsTheSameFromWhatIsKeptOfEarlierLooksWhateverHasOpenedIsHeldOrHasNewSides) {
-  Scene scene(two_boxes(0.01), Discretisation::own_nodes);
+void expect_kept_elements_to_follow(Discretisation kind) {
+  Scene scene(two_boxes(0.01), kind);
   scene.move(1, {0, 0, -0.02});
   ContactState field;
   for (Index s = 0; s < scene.model.local.num_slots; ++s) field.contactor_of_slot.push_back(s);
@@ -302,16 +313,19 @@ TEST(ContactStep, IsTheSameFromWhatIsKeptOfEarlierLooksWhateverHasOpenedIsHeldOr
   const auto shares = [&](ContactElements* kept) {
     ContactStepModel model = scene.step_model();
     model.state = &field;
-    model.known = kept;
-    const auto patches = contact_patches(model, scene.model.state.position, scene.model.state.velocity, 1.0);
+    ContactElements fresh, &elements = kept != nullptr ? *kept : fresh;
+    elements.update(model);
+    const NodalState& state = scene.model.state;
+    const auto patches = contact_patches(model, elements, state.position, state.velocity, 1.0);
     std::vector<std::array<double, 4>> omega_squared;
-    for (const ContactShare& share : contact_shares(model, patches, 0)) omega_squared.push_back(share.omega_squared);
+    for (const ContactShare& share : contact_shares(model, elements, patches, 0))
+      omega_squared.push_back(share.omega_squared);
     return omega_squared;
   };
   const auto expect_the_same_but_other_than = [&](const auto& before, const char* what) {
     auto now = shares(nullptr);
     EXPECT_EQ(shares(&known), now) << what;
-    EXPECT_EQ(shares(&known), now) << what << ", looked at again";
+    EXPECT_EQ(shares(&known), now) << what << ", evaluated again";
     EXPECT_NE(now, before) << what << " changes nothing";
     return now;
   };
@@ -322,6 +336,62 @@ TEST(ContactStep, IsTheSameFromWhatIsKeptOfEarlierLooksWhateverHasOpenedIsHeldOr
   last = expect_the_same_but_other_than(last, "open faces");
   scene.hold(0);
   expect_the_same_but_other_than(last, "a held body");
+}
+
+TEST(ContactStep, IsTheSameFromWhatIsKeptOfEarlierEvaluationsWhateverHasOpenedIsConstrainedOrHasNewSides) {
+  expect_kept_elements_to_follow(Discretisation::own_nodes);
+  expect_kept_elements_to_follow(Discretisation::shared_nodes);
+}
+
+/// The scene with damping, a sphere that some boxes pass, and a lighter body.
+Scene with_all_contributions(Scene scene) {
+  scene.params.laws[0].damping = 1e4;
+  scene.params.sphere = SphericalBoundary{.centre = {4, 4, 4}, .radius = 3, .penalty = kPenalty};
+  std::set<Index> nodes;
+  scene.for_each_node_of(3, [&](Index n) { nodes.insert(n); });
+  for (const Index n : nodes) scene.model.local.node_mass[at(n)] *= 0.5;
+  return scene;
+}
+
+TEST(ContactStep, IsNoMoreThanTheUpperBoundsWhereverTheBodiesAre) {
+  for (const Discretisation kind : {Discretisation::own_nodes, Discretisation::shared_nodes}) {
+    const Scene scene =
+        with_all_contributions(Scene(test::jittered(test::box({2, 2, 2}, 1.0, {2, 2, 2}, 0.2), 0.08, 4), kind));
+    const ContactElements elements = scene.elements();
+    const ContactStepModel model = scene.step_model();
+    ContactUpperBounds bounds(model, elements);
+    bounds.update();
+    const std::vector<ContactShare> shares = scene.shares(0.3);
+    double largest = 0, bound = 0;
+    for (Index s = 0; s < scene.model.local.num_slots; ++s) {
+      if (scene.faces.open[at(s)] == 0) continue;
+      const ContactShare of_element = bounds.of(s);
+      for (std::size_t c = 0; c < 4; ++c) EXPECT_LE(shares[at(s)].omega_squared[c], of_element.omega_squared[c]);
+      EXPECT_LE(of_element.largest(), bounds.of_group(0));
+      largest = std::max(largest, shares[at(s)].largest());
+      bound = std::max(bound, of_element.largest());
+    }
+    EXPECT_GT(largest, 0.5 * bound);
+  }
+}
+
+TEST(ContactStep, OfPatchesAroundAnElementIsNoMoreThanThatOfAll) {
+  const Scene scene = with_all_contributions(uneven_boxes());
+  const ContactElements elements = scene.elements();
+  const std::vector<ContactShare> shares = scene.shares(0.3);
+  const NodalState& state = scene.model.state;
+  int equal = 0, met = 0;
+  for (Index s = 0; s < scene.model.local.num_slots; s += 7) {
+    if (scene.faces.open[at(s)] == 0) continue;
+    const auto around = patches_around(scene.step_model(), elements, state.position, state.velocity, 1.0, s);
+    ContactShares of_few(scene.step_model(), elements, around, 0.3);
+    const ContactShare few = of_few.of(s);
+    for (std::size_t c = 0; c < 4; ++c) EXPECT_LE(few.omega_squared[c], shares[at(s)].omega_squared[c]);
+    equal += few.largest() == shares[at(s)].largest() ? 1 : 0;
+    met += shares[at(s)].largest() > 0 ? 1 : 0;
+  }
+  EXPECT_GT(met, 50);
+  EXPECT_GT(equal, met / 10);  // the edge of the region cuts patches apart
 }
 
 }  // namespace

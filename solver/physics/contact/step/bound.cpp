@@ -1,4 +1,4 @@
-#include "physics/contact/contact_bound.hpp"
+#include "physics/contact/step/bound.hpp"
 
 #include <algorithm>
 

@@ -33,7 +33,7 @@ namespace breccia {
 /// elastic. w: weight of a point, which may lie on one node of a smaller contactor; G: slope of the overlap field. Both
 /// directions, P on Q and Q on P, act at once. Nodes constrained in all directions have infinite mass.
 ///
-/// Damping adds to it (ContactBound in contact_step.cpp).
+/// Damping adds to it (ContactBound in bound.hpp).
 ///
 /// Possible contacts are found by parts: free faces are put in cells of about `kCellSizes` face sizes at their present
 /// places, those of a body in a cell make a patch, and patches count against each other when their boxes come within
@@ -56,36 +56,13 @@ struct ContactElement {
   std::array<double, 4> area{}, longest{}, steepness{};  ///< by open face: m2; m, edge; G^2
 };
 
-/// ContactElement of elements that own their nodes, which only changes with the following: kept between evaluations.
-class ContactElements {
- public:
-  struct Cause {
-    std::uint8_t open = 0, held = 0;  ///< bits of faces and of corners
-    std::int32_t sets = 0;            ///< of the overlap field; -1: there is none
-    bool operator==(const Cause&) const = default;
-  };
-  /// @param find  finds it where it is not known;  @param num_slots  of one and the same mesh
-  template <class Find>
-  const ContactElement& of(Index slot, Index num_slots, const Cause& cause, Find&& find) {
-    place_.resize(static_cast<std::size_t>(num_slots), -1);
-    Index& place = place_[static_cast<std::size_t>(slot)];
-    if (place < 0) {
-      place = static_cast<Index>(known_.size());
-      known_.push_back({cause, find()});
-    }
-    Known& known = known_[static_cast<std::size_t>(place)];
-    if (known.cause != cause) known = {cause, find()};
-    return known.element;
+/// Calls f(face) for the bits that are set, ascending.
+template <class F>
+void for_each_face(unsigned bits, F&& f) {
+  for (int face = 0; face < 4; ++face) {
+    if ((bits >> face & 1) != 0) f(face);
   }
-
- private:
-  struct Known {
-    Cause cause;
-    ContactElement element;
-  };
-  std::vector<Index> place_;  ///< (slots) in known_, -1: never requested
-  std::vector<Known> known_;
-};
+}
 
 struct ContactStepModel {
   const ContactParams& params;
@@ -94,7 +71,6 @@ struct ContactStepModel {
   const ContactFaces& faces;
   std::span<const std::uint8_t> held;   ///< (num_nodes) 1: its motion is prescribed in all directions
   const ContactState* state = nullptr;  ///< the overlap field; null: as of elements on their own
-  ContactElements* known = nullptr;     ///< of this mesh, read and written; null: nothing is kept
 };
 
 /// Steepest slope of the normal law, where unloading begins, Pa: b sigma_p.
@@ -140,27 +116,37 @@ inline constexpr double kSizeMargin = 0.25;
 
 /// Patches of a rank, or of the whole model.
 struct ContactPatches {
-  std::vector<ContactPatch> list;  ///< ascending by key()
+  std::vector<ContactPatch> list;  ///< each key() once
   std::vector<Index> place;        ///< (4 num_slots) of open faces of originals: where in the list; -1: none
 
-  /// Brings the list into its order.
+  /// Ascending by key(), the same order on any number of ranks: of equal contributions the first is named.
   void sort();
-  /// With those of all ranks, this one's among them: merged with its own where they are parts of one.
-  void merge(std::vector<ContactPatch> of_all);
+  /// Adds those of all ranks, this one's among them or not, merged with its own where they are parts of one.
+  /// O(patches)
+  void merge(const std::vector<std::vector<ContactPatch>>& of_all);
 };
 
-/// Those of the originals' open faces at present. @param coarsening  >= 1: cells larger by it. O(faces + patches log
-/// patches)
-[[nodiscard]] ContactPatches contact_patches(const ContactStepModel& model, const Field<double>& position,
-                                             const Field<double>& velocity, double coarsening);
+class ContactElements;
+
+/// Those of the originals' open faces at present, in any order.
+/// @param elements    of this model, up to date
+/// @param coarsening  >= 1: cells larger by it.  O(faces)
+[[nodiscard]] ContactPatches contact_patches(const ContactStepModel& model, const ContactElements& elements,
+                                             const Field<double>& position, const Field<double>& velocity,
+                                             double coarsening);
+/// Of some originals alone.
+[[nodiscard]] ContactPatches contact_patches(const ContactStepModel& model, const ContactElements& elements,
+                                             const Field<double>& position, const Field<double>& velocity,
+                                             double coarsening, std::span<const Index> slots);
 
 /// Contributions of contact to the elements, of one evaluation.
 class ContactShares {
  public:
   /// @param patches  of the whole model, merged, at the same positions
-  /// @param time     s, within which things may meet. The patches and what the model refers to outlive this object.
-  /// O(faces + patches log patches)
-  ContactShares(const ContactStepModel& model, const ContactPatches& patches, double time);
+  /// @param time     s, within which things may meet. All that is given outlives this object.
+  /// O(patches), and O(patches log patches) before the first contribution
+  ContactShares(const ContactStepModel& model, const ContactElements& elements, const ContactPatches& patches,
+                double time);
   ~ContactShares();
   ContactShares(const ContactShares&) = delete;
   ContactShares& operator=(const ContactShares&) = delete;
@@ -178,7 +164,7 @@ class ContactShares {
 
 /// omega_c^2 of the originals, by slot; 0 where nothing can be met within `time`, s.
 /// @param patches  as for ContactShares
-[[nodiscard]] std::vector<ContactShare> contact_shares(const ContactStepModel& model, const ContactPatches& patches,
-                                                       double time);
+[[nodiscard]] std::vector<ContactShare> contact_shares(const ContactStepModel& model, const ContactElements& elements,
+                                                       const ContactPatches& patches, double time);
 
 }  // namespace breccia
