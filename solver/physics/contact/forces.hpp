@@ -32,10 +32,10 @@ struct ContactWork {
 ///   target    + N_i f_p on the corners of its face;  contactor: - lambda_a f_p on its corners
 ///
 /// so linear and angular momentum are conserved to round-off for any direction of f_p. A couple keeps its history while
-/// it touches; when the point has moved to another contactor of the same body that shares a mesh vertex with the old
-/// one the history is kept. Each couple accumulates its energy gain, the work of its forces by central differences beyond
-/// the absorbed, stored and dissipated energy; a change of the normal force corrects it (correction.hpp), after
-/// separation (d = 0) a small pull.
+/// it touches, also when the point moves to another contactor of the same body that shares a mesh vertex with the last.
+/// Each couple accumulates its energy gain, the work of its forces by central differences beyond the absorbed, stored
+/// and dissipated energy; a change of the normal force corrects it (correction.hpp), after separation (d = 0) a small
+/// pull.
 /// Rules of sides, histories and first overlaps: resolve.hpp and solver/manual/theory/contact.md.
 /// First, the ramps of the field advance by one step. The offset of a couple follows a change of g due to the field
 /// alone, down to 0 at least: a rising field exerts no force, a falling one releases stored energy, which is
