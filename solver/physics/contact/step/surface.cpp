@@ -108,13 +108,20 @@ void ContactSurface::set_corners(Index slot, ContactElement& element) const {
     for (const int corner : kFaceCorners[static_cast<std::size_t>(face)])
       sum[static_cast<std::size_t>(corner)] += third;
   });
+  // Corners of its own on the same open faces have the same sum.
+  const auto faces_at = [&](int corner) { return model_.faces.open[at(slot)] & ~(1U << corner); };
+  int solved = -1;
+  double direction = 0;
   for (int c = 0; c < 4; ++c) {
     const Index node = mesh.corner_node(slot, c);
     if ((on_open >> c & 1) == 0 || model_.held[at(node)] != 0) continue;
     const Mat3& area =
         slot < mesh.num_own_slots ? sum[static_cast<std::size_t>(c)] : shared_[at(node - mesh.num_own_nodes())];
     const double per_mass = 1.0 / mesh.node_mass[at(node)];
-    element.area_over_mass[static_cast<std::size_t>(c)] = largest_direction(area) * per_mass;
+    const bool same = slot < mesh.num_own_slots && solved >= 0 && faces_at(c) == faces_at(solved);
+    if (!same) direction = largest_direction(area);
+    solved = c;
+    element.area_over_mass[static_cast<std::size_t>(c)] = direction * per_mass;
     element.per_mass[static_cast<std::size_t>(c)] = per_mass;
   }
 }
