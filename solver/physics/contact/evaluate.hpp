@@ -37,7 +37,7 @@ struct ContactPair {
   T continues = 0.0;                      ///< 1: it touched one step ago, 0: not
   T stored_by_old_law = 0.0;              ///< J, energy by its former law less that by the present one
   T damping_before = 0.0;                 ///< J, twice the work of the damping force of one step ago over the motion
-  int whole_exponent = 0;  ///< of the law, if it is whole and the same for all of them, else 0
+  int whole_exponent = 0;                 ///< of the law, if it is whole and the same for all of them, else 0
   EvaluationRules rules{};
 
   /// N/m, along the normal.
@@ -106,7 +106,8 @@ template <class T>
   grown.offset = greater(T(0.0), T(h.offset + (pair.overlap - pair.overlap_before)));
   static_cast<void>(go_to(pair, pair.overlap, grown));
   // d does not rise here: the difference is negative by round-off only.
-  const T released = scale * greater(T(0.0), T(stored - normal_law::stored(pair.law, grown.d, grown.d_max, pair.whole_exponent)));
+  const T released =
+      scale * greater(T(0.0), T(stored - normal_law::stored(pair.law, grown.d, grown.d_max, pair.whole_exponent)));
   h.offset = select(grows, grown.offset, h.offset);
   h.d = select(grows, grown.d, h.d);
   h.d_max = select(grows, grown.d_max, h.d_max);

@@ -9,10 +9,6 @@ namespace {
 
 constexpr Index kRemoved = -1;
 
-void put(const Vec3& value, std::size_t lane, ContactRow (&rows)[3]) {
-  for (std::size_t axis = 0; axis < 3; ++axis) rows[axis][lane] = value[static_cast<Eigen::Index>(axis)];
-}
-
 Vec3 vector_of(const ContactRow (&rows)[3], std::size_t lane) { return {rows[0][lane], rows[1][lane], rows[2][lane]}; }
 
 }  // namespace
@@ -171,7 +167,6 @@ double PairQueue::damping_before(std::size_t lane) const {
   const ContactView::Before then = view_.one_step_ago(point, old.contactor);
   const OverlapShape& shape = view_.shape_of(old.contactor, Instant::step_before);
   const Vec3 last = inert(then.tetra) ? gradient : overlap(shape, then.tetra, then.lambda, then.rows).gradient;
-  const ContactLaw& law = view_.law_of(index, candidate.contactor);
   const double before =
       (h.force - h.friction).norm() / (factor * last.norm()) - point.weight * normal_law::stress(*law, h.d, h.d_max);
   return before * (turn == 0 ? last.dot(motion) : gradient.dot(motion) - turn);

@@ -118,7 +118,7 @@ void advance_field(ContactState& contact) {
 }
 
 OverlapFunction least_function_of_sets(const std::array<double, 4>& height, const FieldValues& values,
-                               const std::array<double, 4>& lambda) {
+                                       const std::array<double, 4>& lambda) {
   std::array<double, 4> by_depth{}, by_height{};
   for (std::size_t a = 0; a < 4; ++a) {
     by_depth[a] = lambda[a] * values.depth[a];
