@@ -3,8 +3,9 @@
 namespace breccia {
 
 /// x^n, n >= 0, by squaring: faster than pow, and the same bits on every machine.
-[[nodiscard]] inline double whole_power(double x, int n) {
-  double result = 1.0;
+template <class T>
+[[nodiscard]] inline T whole_power(T x, int n) {
+  T result = 1.0;
   for (; n > 0; n /= 2) {
     if (n % 2 == 1) result *= x;
     x *= x;

@@ -41,15 +41,15 @@ struct alignas(64) LocateBlock {
 /// Eight couples in contact, each with a law of its own: all that evaluate() reads and writes, in rows (AoSoA). Empty
 /// places are computed too and discarded.
 struct alignas(64) PairBlock {
-  const StepElement* contactor[kLanes] = {};
+  const StepElement *target[kLanes] = {}, *contactor[kLanes] = {};
   const double* velocity[3][kLanes] = {};  ///< m/s, of the nodes of the point's face, three numbers each
   ContactRow shape[3], lambda[4];          ///< of the point on its face and in the contactor
   ContactRow depth[4];                     ///< m, coefficients of the overlap function that counts
   ContactRow overlap, overlap_before;      ///< m, g by the field of now and of one step ago
+  const ContactLaw* common_law = nullptr;  ///< of all of them; null: `law` has those of each
   ContactLawOf<ContactRow> law;
   ContactRow weight = 1.0, length = 1.0;  ///< m2 of the point; m, H of the contactor's body
   ContactRow longest_delay;               ///< s
-  ContactRow rotation[3];                 ///< rad, of the two elements in the mean
   ContactRow continues;                   ///< 1: the couple touched one step ago, 0: not
   // Of the motion of the last step.
   ContactRow motion[3];                  ///< m, of the point relative to the contactor's material

@@ -19,7 +19,7 @@ inline constexpr double kSameSlope = 1e-3;
 
 /// Those of ContactRules that are evaluated side by side.
 struct EvaluationRules {
-  bool correction = true, steep_correction = true, friction_age = true, second_stage = true;
+  bool correction = true, steep_correction = true, friction_age = true, second_stage = true, spring_turns = true;
 };
 
 /// A couple in contact, over the number type.
@@ -37,6 +37,7 @@ struct ContactPair {
   T continues = 0.0;                      ///< 1: it touched one step ago, 0: not
   T stored_by_old_law = 0.0;              ///< J, energy by its former law less that by the present one
   T damping_before = 0.0;                 ///< J, twice the work of the damping force of one step ago over the motion
+  int whole_exponent = 0;                 ///< of the law, if it is whole and the same for all of them, else 0
   EvaluationRules rules{};
 
   /// N/m, along the normal.
@@ -72,7 +73,7 @@ template <class Vector>
 /// J, of the normal law; and of the spring as well.
 template <class T>
 [[nodiscard]] inline T stored_in_overlap(const ContactPair<T>& pair, const PairHistory<T>& h) {
-  return pair.weight * pair.length * normal_law::stored(pair.law, h.d, h.d_max);
+  return pair.weight * pair.length * normal_law::stored(pair.law, h.d, h.d_max, pair.whole_exponent);
 }
 template <class T>
 [[nodiscard]] inline T stored_energy(const ContactPair<T>& pair, const PairHistory<T>& h) {
@@ -101,11 +102,12 @@ template <class T>
   if (!any(grows)) return lost;
   // The offset follows the change of the field: a rise adds no force, a fall reduces the force once the offset is 0.
   PairHistory<T> grown = h;
-  const T stored = normal_law::stored(pair.law, h.d, h.d_max);
+  const T stored = normal_law::stored(pair.law, h.d, h.d_max, pair.whole_exponent);
   grown.offset = greater(T(0.0), T(h.offset + (pair.overlap - pair.overlap_before)));
   static_cast<void>(go_to(pair, pair.overlap, grown));
   // d does not rise here: the difference is negative by round-off only.
-  const T released = scale * greater(T(0.0), T(stored - normal_law::stored(pair.law, grown.d, grown.d_max)));
+  const T released =
+      scale * greater(T(0.0), T(stored - normal_law::stored(pair.law, grown.d, grown.d_max, pair.whole_exponent)));
   h.offset = select(grows, grown.offset, h.offset);
   h.d = select(grows, grown.d, h.d);
   h.d_max = select(grows, grown.d_max, h.d_max);
@@ -201,7 +203,7 @@ template <class T>
   // Freshly broken surfaces are full of couples that lie together without force: nothing more to do for those.
   const auto acts = presses || any_component(last.force);
   if (!any(acts)) return e;
-  const T stress = normal_law::stress(pair.law, h.d, h.d_max);
+  const T stress = normal_law::stress(pair.law, h.d, h.d_max, pair.whole_exponent);
   e.stored = pair.weight * pair.length * normal_law::stored_under(pair.law, h.d, stress);
   const T pressure = damp(pair, dt, h, T(pair.weight * stress), e.damped);
   h.force = select_vector(acts, Vector(-pressure * pair.gradient), none);

@@ -188,7 +188,13 @@ template <class Real>
 inline void evaluate_some(double dt, const EvaluationRules& rules, PairBlock& b, std::size_t first) {
   const Some<Real> at{first};
   ContactPair<Real> pair;
-  for_each_law_number([&](Real& x, const ContactRow& row) { x = at.load(row); }, pair.law, b.law);
+  if (b.common_law != nullptr) {
+    for_each_law_number([](Real& x, const double& of_all) { x = of_all; }, pair.law, *b.common_law);
+    const int whole = static_cast<int>(b.common_law->exponent);
+    pair.whole_exponent = whole == b.common_law->exponent ? whole : 0;
+  } else {
+    for_each_law_number([&](Real& x, const ContactRow& row) { x = at.load(row); }, pair.law, b.law);
+  }
   pair.weight = at.load(b.weight);
   pair.length = at.load(b.length);
   pair.overlap = at.load(b.overlap);
@@ -197,7 +203,11 @@ inline void evaluate_some(double dt, const EvaluationRules& rules, PairBlock& b,
   pair.gradient = at.load(b.gradient);
   pair.turn = at.load(b.turn);
   pair.longest_delay = at.load(b.longest_delay);
-  pair.rotation = at.load(b.rotation);
+  // Half the curl of the motion of each element.
+  const auto curl = [&](const StepElement* const(&elements)[kLanes]) {
+    return at.gather([&](std::size_t axis, std::size_t l) { return elements[l]->curl[axis]; });
+  };
+  if (rules.spring_turns) pair.rotation = Real(0.25 * dt) * (curl(b.target) + curl(b.contactor));
   pair.continues = at.load(b.continues);
   pair.stored_by_old_law = at.load(b.stored_by_old_law);
   pair.damping_before = at.load(b.damping_before);

@@ -9,10 +9,6 @@ namespace {
 
 constexpr Index kRemoved = -1;
 
-void put(const Vec3& value, std::size_t lane, ContactRow (&rows)[3]) {
-  for (std::size_t axis = 0; axis < 3; ++axis) rows[axis][lane] = value[static_cast<Eigen::Index>(axis)];
-}
-
 Vec3 vector_of(const ContactRow (&rows)[3], std::size_t lane) { return {rows[0][lane], rows[1][lane], rows[2][lane]}; }
 
 }  // namespace
@@ -36,7 +32,7 @@ void PairQueue::push(Index point, std::span<const Candidate> candidates) {
 
 void PairQueue::push(Index point, const Candidate& candidate, std::size_t place) {
   const std::size_t lane = filled_++;
-  lanes_[lane] = {point, place, candidate, 0.0};
+  lanes_[lane] = {point, place, candidate, 0.0, nullptr};
   fill_place(view_.point(point), candidate, lane);
   fill_laws(point, candidate, lane);
   const auto put_number = [lane](const PairNumber&, const double& x, ContactRow& row) { row[lane] = x; };
@@ -81,6 +77,7 @@ void PairQueue::fill_place(const ContactPoint& point, const Candidate& candidate
     block_.shape[i][lane] = shape[i];
     block_.velocity[i][lane] = target.velocity[kFaceCorners[at(point.face)][i]];
   }
+  block_.target[lane] = &target;
   block_.contactor[lane] = &view_.element(view_.slot_of(candidate.contactor));
   for (std::size_t a = 0; a < 4; ++a) {
     block_.lambda[a][lane] = candidate.lambda[a];
@@ -94,29 +91,38 @@ void PairQueue::fill_laws(Index index, const Candidate& candidate, std::size_t l
   const ContactPoint& point = view_.point(index);
   const Index contactor = candidate.contactor;
   const ContactLaw& law = view_.law_of(index, contactor);
-  for_each_law_number([lane](const double& x, ContactRow& row) { row[lane] = x; }, law, block_.law);
+  lanes_[lane].law = &law;
   block_.weight[lane] = point.weight;
   block_.length[lane] = view_.length_of(contactor);
   block_.longest_delay[lane] = view_.rules().friction_lag_stages > 0 ? view_.longest_delay(law, index, contactor) : 0.0;
   block_.continues[lane] = candidate.old >= 0 ? 1 : 0;
   block_.stored_by_old_law[lane] = block_.damping_before[lane] = 0;
-  put(Vec3::Zero(), lane, block_.rotation);
   if (candidate.old < 0) return;
   const TouchingCouple& old = contact_.touching_before[at(candidate.old)];
   const PairHistory<double>& h = old.history;
-  if (h.spring != Vec3::Zero() && view_.rules().spring_turns)
-    put(view_.mean_rotation(point, contactor), lane, block_.rotation);
   if (old.contactor == contactor || &view_.law_of(index, old.contactor) == &law) return;
   block_.stored_by_old_law[lane] = pair_step::stored_energy(view_.pair_of(index, old.contactor), h) -
                                    pair_step::stored_energy(view_.pair_of(index, contactor), h);
 }
 
-/// Evaluates the block, and adds all forces in the order in which they came.
-void PairQueue::evaluate() {
+/// Makes the block whole: what is computed of empty lanes is discarded.
+void PairQueue::fill_empty_lanes() {
   for (std::size_t lane = filled_; lane < lanes_.size(); ++lane) {
+    block_.target[lane] = block_.target[0];
     block_.contactor[lane] = block_.contactor[0];
     for (auto& node : block_.velocity) node[lane] = node[0];
   }
+  block_.common_law = lanes_[0].law;
+  for (std::size_t lane = 1; lane < filled_; ++lane) {
+    if (lanes_[lane].law != lanes_[0].law) block_.common_law = nullptr;
+  }
+  for (std::size_t lane = 0; block_.common_law == nullptr && lane < filled_; ++lane)
+    for_each_law_number([lane](const double& x, ContactRow& row) { row[lane] = x; }, *lanes_[lane].law, block_.law);
+}
+
+/// Evaluates the block, and adds all forces in the order in which they came.
+void PairQueue::evaluate() {
+  fill_empty_lanes();
   kernels_.move(view_.dt(), block_);
   for (std::size_t lane = 0; lane < filled_; ++lane) {
     adjust(lane);
@@ -136,7 +142,7 @@ void PairQueue::evaluate() {
 /// Applies the rules to a couple, but to those that continue under the same function of the overlap, nearly all of
 /// debris at rest.
 void PairQueue::adjust(std::size_t lane) {
-  const auto& [index, place, candidate, offset] = lanes_[lane];
+  const auto& [index, place, candidate, offset, law] = lanes_[lane];
   const bool presses = candidate.old >= 0 && block_.history.d[lane] > 0;
   if (!presses || block_.same_slope[lane] == 0 || view_.is_growing(candidate.contactor)) {
     const Adjusted now = resolver_.adjust(index, candidate, history_before(candidate), vector_of(block_.motion, lane),
@@ -145,12 +151,12 @@ void PairQueue::adjust(std::size_t lane) {
     block_.overlap_before[lane] = now.overlap_before;
     block_.turn[lane] = now.turn;
   }
-  if (block_.law.damping[lane] > 0) block_.damping_before[lane] = damping_before(lane);
+  if (law->damping > 0) block_.damping_before[lane] = damping_before(lane);
 }
 
 /// J, twice the work of the damping force of one step ago over the motion, along the gradient that it had.
 double PairQueue::damping_before(std::size_t lane) const {
-  const auto& [index, place, candidate, offset] = lanes_[lane];
+  const auto& [index, place, candidate, offset, law] = lanes_[lane];
   if (candidate.old < 0) return 0;
   const TouchingCouple& old = contact_.touching_before[at(candidate.old)];
   const PairHistory<double>& h = old.history;
@@ -161,15 +167,14 @@ double PairQueue::damping_before(std::size_t lane) const {
   const ContactView::Before then = view_.one_step_ago(point, old.contactor);
   const OverlapShape& shape = view_.shape_of(old.contactor, Instant::step_before);
   const Vec3 last = inert(then.tetra) ? gradient : overlap(shape, then.tetra, then.lambda, then.rows).gradient;
-  const ContactLaw& law = view_.law_of(index, candidate.contactor);
   const double before =
-      (h.force - h.friction).norm() / (factor * last.norm()) - point.weight * normal_law::stress(law, h.d, h.d_max);
+      (h.force - h.friction).norm() / (factor * last.norm()) - point.weight * normal_law::stress(*law, h.d, h.d_max);
   return before * (turn == 0 ? last.dot(motion) : gradient.dot(motion) - turn);
 }
 
 /// Takes a couple out of the block, accounts its energies and adds its force.
 void PairQueue::take_results(std::size_t lane) {
-  const auto& [index, place, candidate, offset] = lanes_[lane];
+  const auto& [index, place, candidate, offset, law] = lanes_[lane];
   const ContactPoint& point = view_.point(index);
   view_.account(point, block_.lost[lane], work_.dissipated);
   if (!(candidate.g > 0)) return end_inside(lane);
@@ -194,7 +199,7 @@ void PairQueue::take_results(std::size_t lane) {
 /// The overlap has ended although the point is in the contactor: its field has changed. The couple ends by the law and
 /// on the contactor that it had.
 void PairQueue::end_inside(std::size_t lane) {
-  const auto& [index, place, candidate, offset] = lanes_[lane];
+  const auto& [index, place, candidate, offset, law] = lanes_[lane];
   TouchingCouple last{index, candidate.contactor, history_before(candidate)};
   if (candidate.old >= 0) last.contactor = contact_.touching_before[at(candidate.old)].contactor;
   last.history.gained_before += candidate.gained;

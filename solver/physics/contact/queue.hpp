@@ -27,7 +27,8 @@ class PairQueue {
         rules_{.correction = view.rules().correction,
                .steep_correction = view.rules().steep_correction,
                .friction_age = view.rules().friction_age,
-               .second_stage = view.rules().friction_lag_stages > 1} {}
+               .second_stage = view.rules().friction_lag_stages > 1,
+               .spring_turns = view.rules().spring_turns} {}
 
   /// Couples of a point. To be called for points in ascending order
   void push(Index point, std::span<const Candidate> candidates);
@@ -43,6 +44,7 @@ class PairQueue {
     std::size_t place;
     Candidate candidate;
     double offset;  ///< m, before evaluation
+    const ContactLaw* law;
   };
   /// A force that is known, to be added before that of a lane.
   struct Waiting {
@@ -52,6 +54,7 @@ class PairQueue {
 
   void push(Index point, const Candidate& candidate, std::size_t place);
   void evaluate();
+  void fill_empty_lanes();
   void fill_place(const ContactPoint& point, const Candidate& candidate, std::size_t lane);
   void fill_laws(Index point, const Candidate& candidate, std::size_t lane);
   void adjust(std::size_t lane);

@@ -47,6 +47,7 @@ void Resolver::bridge_gaps(Index point, std::span<Nearby> beside) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
   end_before(point);
   const std::size_t inside = candidates_.size();
+  bool any_sides = false;
   for (const Nearby& here : beside) {
     const Index contactor = here.couple->contactor;
     bool pressed = false;
@@ -54,7 +55,10 @@ void Resolver::bridge_gaps(Index point, std::span<Nearby> beside) {
       pressed = pressed || (old[k].contactor == contactor && old[k].history.d > 0);
     if (!pressed) {
       // Nearby a side it may come to lie under it at any time, without coming nearer.
-      if (!view_.has_sides(contactor)) here.couple->apart_until = contact_.travel + here.safe;
+      if (view_.has_sides(contactor))
+        any_sides = true;
+      else
+        here.couple->apart_until = contact_.travel + here.safe;
       continue;
     }
     const bool continues =
@@ -62,6 +66,7 @@ void Resolver::bridge_gaps(Index point, std::span<Nearby> beside) {
                     [&](const Candidate& c) { return view_.are_neighbours(c.contactor, contactor); });
     if (!continues && view_.rules().bridge_gaps) consider(view_.point(point), contactor, here.lambda);
   }
+  if (candidates_.size() == inside && !any_sides) return;
   if (view_.rules().prefer_facing_side) prefer_facing_sides(view_.point(point), beside, inside);
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.contactor < b.contactor; });

@@ -58,11 +58,6 @@ Vec3 ContactView::relative_motion(const ContactPoint& point, Index contactor,
   return dt_ * relative;
 }
 
-Vec3 ContactView::mean_rotation(const ContactPoint& point, Index contactor) {
-  const auto curl = [&](Index slot) { return Vec3(Eigen::Map<const Vec3>(element(slot).curl)); };
-  return 0.25 * dt_ * (curl(point.slot) + curl(slot_of(contactor)));
-}
-
 Vec3 ContactView::outward_of(const ContactPoint& point, double dt) const {
   return outward_normal(point, [&](Index node) {
     const Vec3 x = load_node(state_.position.data(), node);

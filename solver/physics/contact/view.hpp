@@ -66,9 +66,6 @@ class ContactView {
   /// Motion of the point relative to the contactor's material at lambda during the last step, m.
   [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index contactor,
                                      const std::array<double, 4>& lambda) const;
-  /// Rotation of the elements of a point and a contactor in the mean during the last step, rad: half the curl of their
-  /// motions.
-  [[nodiscard]] Vec3 mean_rotation(const ContactPoint& point, Index contactor);
   /// Normal of a point's face. @param dt  s, by which the nodes are moved back
   [[nodiscard]] Vec3 outward_of(const ContactPoint& point, double dt = 0) const;
 

@@ -34,10 +34,6 @@ FieldRamp& ramp_of(Index contactor, ContactState& contact) {
   return contact.ramps[at(place)];
 }
 
-/// Bits of CornerSets: sets of three corners, and the others.
-constexpr unsigned kFaceSets = 1U << 7 | 1U << 11 | 1U << 13 | 1U << 14;
-constexpr unsigned kSmallSets = ((1U << kNumCornerSets) - 2) & ~kFaceSets;
-
 bool has_corner(unsigned set, std::size_t a) { return (set >> a & 1U) != 0; }
 /// Whether a set has three corners; without std::popcount, which is a call in the baseline instruction set.
 bool is_face(unsigned set) { return (kFaceSets >> set & 1U) != 0; }
@@ -54,24 +50,6 @@ std::array<double, 4> row_of(const FieldValues& values, const std::array<double,
     }
   }
   return row;
-}
-
-/// least_function() of an element that meets the surface with faces alone, as all of what has come apart: each of its
-/// sums has one term.
-OverlapFunction least_of_faces(const std::array<double, 4>& height, const FieldValues& values,
-                               const std::array<double, 4>& lambda) {
-  double least = std::numeric_limits<double>::infinity();
-  std::size_t opposite = 0;
-  for (const std::size_t a : {3, 2, 1, 0}) {
-    if ((static_cast<unsigned>(values.sets) >> (15U ^ 1U << a) & 1U) == 0) continue;
-    const double g = lambda[a] * std::min(values.depth[a], height[a]);
-    if (!(g < least)) continue;
-    least = g;
-    opposite = a;
-  }
-  OverlapFunction function{least, {}};
-  function.row[opposite] = std::min(values.depth[opposite], height[opposite]);
-  return function;
 }
 
 OverlapShape body_shape(const ContactParams& params, const std::array<double, 4>& height, const FieldValues& values,
@@ -139,10 +117,8 @@ void advance_field(ContactState& contact) {
   }
 }
 
-OverlapFunction least_function(const std::array<double, 4>& height, const FieldValues& values,
-                               const std::array<double, 4>& lambda) {
-  if ((static_cast<unsigned>(values.sets) & kSmallSets) == 0 && (static_cast<unsigned>(values.sets) & kFaceSets) != 0)
-    return least_of_faces(height, values, lambda);
+OverlapFunction least_function_of_sets(const std::array<double, 4>& height, const FieldValues& values,
+                                       const std::array<double, 4>& lambda) {
   std::array<double, 4> by_depth{}, by_height{};
   for (std::size_t a = 0; a < 4; ++a) {
     by_depth[a] = lambda[a] * values.depth[a];

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <limits>
+
 #include "mesh/surface_depth.hpp"
 #include "physics/contact/geometry/overlap.hpp"
 #include "physics/contact/params.hpp"
@@ -63,10 +67,34 @@ struct OverlapFunction {
   std::array<double, 4> row{};  ///< m, its coefficients
 };
 
+/// Bits of CornerSets: sets of three corners, and the others.
+inline constexpr unsigned kFaceSets = 1U << 7 | 1U << 11 | 1U << 13 | 1U << 14;
+inline constexpr unsigned kSmallSets = ((1U << kNumCornerSets) - 2) & ~kFaceSets;
+
+/// least_function() for any sets.
+[[nodiscard]] OverlapFunction least_function_of_sets(const std::array<double, 4>& height, const FieldValues& values,
+                                                     const std::array<double, 4>& lambda);
+
 /// The least sum of the field `body` at lambda where no ramp runs: the same bits as by overlap_shape() and least_row(),
 /// without the others' coefficients. @param height  heights() of the element
-[[nodiscard]] OverlapFunction least_function(const std::array<double, 4>& height, const FieldValues& values,
-                                             const std::array<double, 4>& lambda);
+[[nodiscard]] inline OverlapFunction least_function(const std::array<double, 4>& height, const FieldValues& values,
+                                                    const std::array<double, 4>& lambda) {
+  const auto sets = static_cast<unsigned>(values.sets);
+  if ((sets & kSmallSets) != 0 || (sets & kFaceSets) == 0) return least_function_of_sets(height, values, lambda);
+  // An element that meets the surface with faces alone, as all of what has come apart: each of its sums has one term.
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t opposite = 0;
+  for (const std::size_t a : {3, 2, 1, 0}) {
+    if ((sets >> (15U ^ 1U << a) & 1U) == 0) continue;
+    const double g = lambda[a] * std::min(values.depth[a], height[a]);
+    if (!(g < least)) continue;
+    least = g;
+    opposite = a;
+  }
+  OverlapFunction function{least, {}};
+  function.row[opposite] = std::min(values.depth[opposite], height[opposite]);
+  return function;
+}
 
 /// Coefficients of g for one element. @param height  heights() of it;  @param length  H of its body, m
 /// @param coming  of a ramp, or null: none

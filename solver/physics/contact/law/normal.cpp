@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "physics/whole_power.hpp"
-
 namespace breccia::normal_law {
 
 double power(double ratio, double exponent) {

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "physics/elasticity.hpp"
+#include "physics/whole_power.hpp"
 
 namespace breccia {
 
@@ -64,8 +65,10 @@ using elasticity::select;
 /// ratio^exponent, by multiplication where the exponent is whole. Not inline: units of wider instruction sets call it.
 [[nodiscard]] double power(double ratio, double exponent);
 
+/// @param whole  the exponent if it is whole and the same everywhere, else 0
 template <class T>
-[[nodiscard]] inline T unloaded(const T& ratio, const T& exponent) {
+[[nodiscard]] inline T unloaded(const T& ratio, const T& exponent, int whole) {
+  if (whole > 0) return whole_power(ratio, whole);
   if constexpr (std::is_same_v<T, double>) {
     return power(ratio, exponent);
   } else {
@@ -79,14 +82,14 @@ template <class T>
   return select(d > 0.0, greater(d, d_max), T(0.0));
 }
 
-/// sigma, Pa, compression positive. @pre d <= d_max unless d <= 0
+/// sigma, Pa, compression positive. @param whole  as for unloaded(). @pre d <= d_max unless d <= 0
 template <class T>
-[[nodiscard]] inline T stress(const ContactLawOf<T>& law, const T& d, const T& d_max) {
+[[nodiscard]] inline T stress(const ContactLawOf<T>& law, const T& d, const T& d_max, int whole = 0) {
   // Never a d^b with a = sigma_max / d_max^b, which overflows for b = 6.
   const auto overlaps = d > 0.0;
   const T peak = lesser(T(law.penalty * d_max), law.plateau);
   const T ratio = select(overlaps, T(d / d_max), T(0.0));
-  return select(overlaps, T(peak * unloaded(ratio, law.exponent)), T(0.0));
+  return select(overlaps, T(peak * unloaded(ratio, law.exponent, whole)), T(0.0));
 }
 
 /// Energy that unloading from d would return, J/m3: the integral of sigma from 0 to d along the unloading curve.
@@ -96,8 +99,8 @@ template <class T>
   return select(d > 0.0, T(stress * d / (law.exponent + 1.0)), T(0.0));
 }
 template <class T>
-[[nodiscard]] inline T stored(const ContactLawOf<T>& law, const T& d, const T& d_max) {
-  return stored_under(law, d, stress(law, d, d_max));
+[[nodiscard]] inline T stored(const ContactLawOf<T>& law, const T& d, const T& d_max, int whole = 0) {
+  return stored_under(law, d, stress(law, d, d_max, whole));
 }
 
 /// Energy that loading up to d_max has cost beyond what unloading returns, J/m3; never decreases with d_max.
