@@ -50,15 +50,14 @@ void Resolver::bridge_gaps(Index point, std::span<Nearby> beside) {
   bool any_sides = false;
   for (const Nearby& here : beside) {
     const Index contactor = here.couple->contactor;
+    const bool has_sides = view_.has_sides(contactor);
+    any_sides = any_sides || has_sides;
     bool pressed = false;
     for (std::size_t k = old_; k < old.size() && old[k].point == point; ++k)
       pressed = pressed || (old[k].contactor == contactor && old[k].history.d > 0);
     if (!pressed) {
       // Nearby a side it may come to lie under it at any time, without coming nearer.
-      if (view_.has_sides(contactor))
-        any_sides = true;
-      else
-        here.couple->apart_until = contact_.travel + here.safe;
+      if (!has_sides) here.couple->apart_until = contact_.travel + here.safe;
       continue;
     }
     const bool continues =
