@@ -58,6 +58,29 @@ void add_points(const std::vector<PointCouples>& points, ContactState& contact) 
   merge_few(all, added, by_id);
 }
 
+AwakeCouple awake_of(const ContactCouple& couple, Index index, const ContactState& contact) {
+  return {index, couple.point, couple.contactor, contact.contactors[at(couple.contactor)], couple.apart_until};
+}
+
+/// Couples that are about to be merged into the others join those awake, which get their indices after that.
+void add_awake(const std::vector<ContactCouple>& made, ContactState& contact) {
+  std::vector<AwakeCouple>& awake = contact.awake;
+  auto end = static_cast<std::ptrdiff_t>(awake.size());
+  awake.resize(awake.size() + made.size());
+  auto couples_end = contact.couples.end();
+  for (auto left = static_cast<std::ptrdiff_t>(made.size()); left-- > 0;) {
+    const ContactCouple& couple = made[at(left)];
+    couples_end = std::upper_bound(contact.couples.begin(), couples_end, couple, in_order(contact));
+    const auto place = static_cast<Index>(couples_end - contact.couples.begin());
+    for (; end > 0 && awake[at(end - 1)].couple >= place; --end) {
+      AwakeCouple& moved = awake[at(end + left)];
+      moved = awake[at(end - 1)];
+      moved.couple += static_cast<Index>(left + 1);
+    }
+    awake[at(end + left)] = awake_of(couple, place + static_cast<Index>(left), contact);
+  }
+}
+
 }  // namespace
 
 void set_contactors(const LocalMesh& local, std::vector<Index> slots, ContactState& contact) {
@@ -92,7 +115,7 @@ void couples_replaced(ContactState& contact) {
 
 void add_fresh_couples(const std::vector<ContactCouple>& made, ContactState& contact) {
   if (made.empty()) return;
-  put_awake_back(contact);
+  add_awake(made, contact);
   merge_few(contact.couples, made, in_order(contact));
   merge_few(contact.fresh, made, in_order(contact));
   std::vector<PointCouples> points;
@@ -119,8 +142,7 @@ void wake_couples(double ahead, ContactState& contact) {
       for (Index k = first; k < end; ++k) {
         const ContactCouple& couple = contact.couples[at(k)];
         point.apart_until = std::min(point.apart_until, couple.apart_until);
-        if (!sleeps(couple.apart_until))
-          contact.awake.push_back({k, couple.point, couple.contactor, couple.apart_until});
+        if (!sleeps(couple.apart_until)) contact.awake.push_back(awake_of(couple, k, contact));
       }
     }
     first = end;

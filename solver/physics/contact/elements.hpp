@@ -47,6 +47,14 @@ class StepElements {
     Block* block = of_slots_[static_cast<std::size_t>(slot / kLanes)];
     return block != nullptr && block->prepared_in == step_ ? block : nullptr;
   }
+  void prefetch(Index slot) const {
+    const Block* block = of_slots_[static_cast<std::size_t>(slot / kLanes)];
+    if (block == nullptr) return;
+    const StepElement& element = block->elements[static_cast<std::size_t>(slot % kLanes)];
+    __builtin_prefetch(&element);
+    __builtin_prefetch(&element.velocity[0]);
+    __builtin_prefetch(&block->prepared_in);
+  }
   /// The block with a slot, to be prepared. It stays where it is.
   [[nodiscard]] Block& prepare(Index slot) {
     Block*& block = of_slots_[static_cast<std::size_t>(slot / kLanes)];

@@ -26,7 +26,7 @@ void Locator::collect(std::span<AwakeCouple> couples) {
     located_.push_back(&couple);
     if (block == blocks_.size()) blocks_.emplace_back();
     LocateBlock& b = blocks_[block];
-    b.tetra[lane] = &view_.tetra_of(couple.contactor);
+    b.tetra[lane] = &view_.element(couple.slot).tetra;
     for (std::size_t axis = 0; axis < 3; ++axis) b.x[axis][lane] = x[static_cast<Eigen::Index>(axis)];
     if (lane + 1 == kLanes) kernels_.locate(b);
   }

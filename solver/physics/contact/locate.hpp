@@ -27,6 +27,7 @@ class Locator {
     const std::span<AwakeCouple> awake{contact_.awake};
     for (std::size_t first = 0, end = 0; first < awake.size(); first = end) {
       for (end = first + 1; end < awake.size() && awake[end].point == awake[first].point; ++end) continue;
+      if (end + kAhead < awake.size()) view_.prefetch(awake[end + kAhead]);
       collect(awake.subspan(first, end - first));
       if (located_.size() >= kMostLocated) use_located(use);
     }
@@ -37,6 +38,7 @@ class Locator {
  private:
   /// Couples that are located before the first of their points is used: few, so that they remain in the cache.
   static constexpr std::size_t kMostLocated = 64;
+  static constexpr std::size_t kAhead = 12;  ///< couples whose memory is requested in advance
 
   /// A point, with its couples.
   struct LocatedPoint {

@@ -38,6 +38,7 @@ struct PointCouples {
 struct AwakeCouple {
   Index couple;  ///< index into ContactState::couples
   Index point, contactor;
+  Index slot;          ///< of the contactor
   double apart_until;  ///< m, of the couple, brought up to date here
 };
 

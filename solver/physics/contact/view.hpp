@@ -71,6 +71,11 @@ class ContactView {
 
   /// The element of a slot in this step, prepared on its first use.
   [[nodiscard]] StepElement& element(Index slot) { return block_with(slot).elements[at(slot % kLanes)]; }
+  /// Requests what the location of a couple will read.
+  void prefetch(const AwakeCouple& couple) const {
+    __builtin_prefetch(&contact_.points[at(couple.point)]);
+    contact_.elements.prefetch(couple.slot);
+  }
   [[nodiscard]] const PreparedTetra& tetra_of(Index contactor) { return element(slot_of(contactor)).tetra; }
 
   /// Whether the overlap field of a contactor changes in this step.
