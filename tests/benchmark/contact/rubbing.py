@@ -1,0 +1,172 @@
+"""Experiments on friction."""
+
+import math
+
+from cases import GRAVITY, at, balance, complete, contact, fixed, material, output, ramp, text
+from meshes import Mesh
+
+
+class Rig:
+    """A plate is pressed on another one and driven along it: the mean of friction over normal force is the coefficient."""
+
+    STEADY = 0.2  # standard deviation over mean of the normal force, above which the plates vibrate
+
+    def __init__(self, name, coefficients):
+        self.name, self.coefficients = name, coefficients
+
+    @staticmethod
+    def mesh():
+        mesh = Mesh()
+        mesh.box("upper", [0, 0, 1e-9], [0.04, 0.015, 0.01], [8, 3, 2], jitter=0.2, seed=1)
+        mesh.box("lower", [-0.015, -0.0075, -0.015], [0.07, 0.0225, 0], [14, 5, 3], jitter=0.2, seed=2)
+        mesh.surface("top", lambda x: abs(x[2] - 0.01) < 1e-8)
+        return mesh.text()
+
+    def cases(self):
+        return {str(friction): (text(
+            material(["upper", "lower"], 10e9),
+            contact(["upper", "lower"], 10e9, f"friction = {friction}", 'points_on = "first"'),
+            ["[[stage]]", "end = 3e-3", "[[stage.pressure]]", 'surface = "top"', f"value = {ramp(2e6, 0, 0.5e-3)}"], fixed("lower"),
+            ["[[stage.constraint]]", 'group = "top"', f"velocity = {{ x = {ramp(0.5, 0.5e-3, 1e-3)}, y = 0 }}"],
+            output(5e-6, ["upper"])), self.mesh()) for friction in self.coefficients}
+
+    def figures(self, results):
+        figures = {**balance(results), "friction": 0.0, "unsteady": 0.0}
+        for label, result in complete(results).items():
+            history = result["history"]
+            x, z = (history[f"upper force {axis}"][at(history, 1.5e-3):] for axis in "xz")
+            mean = sum(z) / len(z)
+            spread = math.sqrt(sum((f - mean) ** 2 for f in z) / len(z)) / abs(mean)
+            figures["friction"] = max(figures["friction"], abs(abs(sum(x) / sum(z)) / float(label) - 1))
+            figures["unsteady"] = max(figures["unsteady"], spread)
+            if spread > self.STEADY:
+                figures["failures"].append(f"{label}: vibrates by {spread:.0%} of the normal force")
+        return figures
+
+
+class Slopes:
+    """A block on a slope just below and above its angle of friction, on a coarse and a fine floor."""
+
+    name = "slopes"
+    YOUNG, FRICTION, STILL = 20e6, 0.5, 1e-3  # Pa, -, m/s
+
+    @staticmethod
+    def mesh(fine):
+        mesh = Mesh()
+        mesh.box("block", [0, -0.01, 1e-8], [0.04, 0.03, 0.02], [4, 4, 2], jitter=0.2, seed=1)
+        mesh.box("floor", [-0.04, -0.03, -0.02], [0.08, 0.05, 0], [11, 7, 2] if fine else [3, 2, 1], jitter=0.2, seed=2)
+        return mesh.text()
+
+    def cases(self):
+        cases = {}
+        for degrees in (26, 28):
+            for floor in ("coarse", "fine"):
+                angle = math.radians(degrees)
+                x, z = (ramp(GRAVITY * math.sin(angle), 0.04, 0.06), ramp(-GRAVITY * math.cos(angle), 0, 0.04))
+                cases[f"{degrees} {floor}"] = (text(
+                    material(["block", "floor"], self.YOUNG),
+                    contact(["block", "floor"], self.YOUNG, f"friction = {self.FRICTION}", 'points_on = "first"'),
+                    ["[[stage]]", "end = 0.13", f"gravity = [{x}, 0, {z}]"], fixed("floor"), output(1e-3, ["block"])),
+                    self.mesh(floor == "fine"))
+        return cases
+
+    def figures(self, results):
+        figures = {**balance(results), "friction": 0.0}
+        for label, result in complete(results).items():
+            history, angle = result["history"], math.radians(float(label.split()[0]))
+            t, x = history["time"], history["block displacement x"]
+            a, b, c = at(history, 0.07), at(history, 0.0995), len(t) - 1
+            acceleration = 2 * ((x[c] - x[b]) / (t[c] - t[b]) - (x[b] - x[a]) / (t[b] - t[a])) / (t[c] - t[a])
+            right = GRAVITY * (math.sin(angle) - self.FRICTION * math.cos(angle))
+            if right > 0:
+                figures["friction"] = max(figures["friction"], abs(right - acceleration) / (self.FRICTION * GRAVITY * math.cos(angle)))
+            elif abs(x[c] - x[b]) / (t[c] - t[b]) > self.STILL:
+                figures["failures"].append(f"{label}: slides with {(x[c] - x[b]) / (t[c] - t[b]):.2g} m/s")
+        return figures
+
+
+class Slides:
+    """A block that is thrown along a floor stops after v^2 / (2 mu g)."""
+
+    name = "slides"
+
+    @staticmethod
+    def mesh(floor):
+        mesh = Mesh()
+        mesh.box("block", [0, -0.01, 1e-8], [0.04, 0.03, 0.02], [4, 4, 2], jitter=0.2, seed=1)
+        mesh.box("floor", [-0.04, -0.03, -0.02], [0.2, 0.05, 0], floor, jitter=0.2, seed=2)
+        return mesh.text()
+
+    CASES = {"0.5 coarse": (0.5, 0.9, [6, 2, 1]), "0.3 fine": (0.3, 0.7, [16, 6, 1])}
+
+    def cases(self):
+        return {label: (text(
+            material(["block", "floor"], 20e6), contact(["block", "floor"], 20e6, f"friction = {friction}"),
+            ["[[initial_velocity]]", 'group = "block"', f"velocity = [{speed}, 0, 0]"],
+            ["[[stage]]", f"end = {1.15 * speed / (friction * GRAVITY)}", f"gravity = [0, 0, {-GRAVITY}]"], fixed("floor"),
+            output(1e-3, ["block"])), self.mesh(floor)) for label, (friction, speed, floor) in self.CASES.items()}
+
+    def figures(self, results):
+        figures = {**balance(results), "friction": 0.0}
+        for label, result in complete(results).items():
+            friction, speed, _ = self.CASES[label]
+            way = result["history"]["block displacement x"][-1] * 2 * friction * GRAVITY / speed**2
+            figures["friction"] = max(figures["friction"], abs(1 / way - 1) if way > 0 else 1.0)
+            if abs(result["history"]["block velocity x"][-1]) > 0.02:
+                figures["failures"].append(f"{label}: has not stopped")
+        return figures
+
+
+class Spins:
+    """A block that spins on a floor is stopped by the torque of friction; one that rides on a turntable does not slide."""
+
+    name = "spins"
+    FRICTION, SIDE = 0.5, 0.02
+    # Mean distance from the centre of a square of side 1.
+    ARM = (math.sqrt(2) + math.asinh(1)) / 6
+    RADIUS, TURN = 0.015, 12.0  # m, rad/s
+    STILL = 1e-4  # m
+
+    def floor_case(self):
+        mesh, a = Mesh(), self.SIDE
+        mesh.box("block", [-a / 2, -a / 2, 1e-8], [a / 2, a / 2, a / 2], [5, 5, 2], jitter=0.2, seed=1)
+        mesh.box("floor", [-a, -a, -a / 2], [a, a, 0], [3, 3, 1], jitter=0.2, seed=2)
+        return text(material(["block", "floor"], 20e6),
+                    contact(["block", "floor"], 0.4e6, f"friction = {self.FRICTION}", 'points_on = "first"'),
+                    ["[[initial_velocity]]", 'group = "block"', "angular = [0, 0, 60]"],
+                    ["[[stage]]", "end = 0.018", f"gravity = [0, 0, {ramp(-10 * GRAVITY, 0, 4e-3)}]"], fixed("floor"),
+                    output(5e-5, ["block"])), mesh.text()
+
+    def table_case(self):
+        mesh, a, r = Mesh(), 0.01, self.RADIUS
+        mesh.box("block", [r - a / 2, -a / 2, 1e-8], [r + a / 2, a / 2, a], [2, 2, 2], jitter=0.2, seed=1)
+        mesh.box("table", [-0.03, -0.03, -0.01], [0.03, 0.03, 0], [6, 6, 1], jitter=0.2, seed=2)
+        mesh.surface("underside", lambda x: abs(x[2] + 0.01) < 1e-9)
+        return text(material(["block"], 20e6), material(["table"], 200e6, density=20000),
+                    contact(["block", "table"], 20e6, f"friction = {self.FRICTION}", 'points_on = "first"'),
+                    ["[[initial_velocity]]", 'group = "block"', f"velocity = [0, {self.TURN * r}, 0]", f"angular = [0, 0, {self.TURN}]",
+                     "[[initial_velocity]]", 'group = "table"', f"angular = [0, 0, {self.TURN}]"],
+                    ["[[stage]]", "end = 0.13", f"gravity = [0, 0, {-GRAVITY}]", ], fixed("underside", "z"),
+                    output(5e-4, ["block", "table"])), mesh.text()
+
+    def cases(self):
+        return {"on a floor": self.floor_case(), "on a turntable": self.table_case()}
+
+    def figures(self, results):
+        figures = {**balance(results), "friction": 0.0}
+        done = complete(results)
+        if "on a floor" in done:
+            history = done["on a floor"]["history"]
+            t, spin, normal = history["time"], history["block spin z"], history["block force z"]
+            first = at(history, 4e-3)
+            last = next((i for i in range(first, len(t)) if spin[i] < 5), len(t) - 1)
+            turned = sum(0.25 * (spin[i] + spin[i + 1]) * (normal[i] + normal[i + 1]) * (t[i + 1] - t[i]) for i in range(first, last))
+            right = self.FRICTION * self.ARM * self.SIDE * turned
+            figures["friction"] = abs((history["friction"][last] - history["friction"][first]) / right - 1) if right > 0 else 1.0
+        if "on a turntable" in done:
+            history = done["on a turntable"]["history"]
+            away = [math.dist([history[f"block centre {c}"][i] for c in "xy"], [history[f"table centre {c}"][i] for c in "xy"])
+                    for i in (at(history, 0.02), -1)]
+            if abs(away[1] - away[0]) > self.STILL:
+                figures["failures"].append(f"turntable: the block slides by {abs(away[1] - away[0]) * 1e3:.2g} mm")
+        return figures
