@@ -1,11 +1,11 @@
 """What experiments share: cases as text, and what their histories show.
 
-An experiment has cases() -> {label: (case, mesh)}, where the case names the mesh as MESH, and figures(results) -> its columns, where
-results has what bench_contact prints, by label:
+An experiment has cases() -> {label: (case, mesh)}, where the case names the mesh as MESH, and figures(results) -> its
+columns, where results has what bench_contact prints, by label:
   gain      largest energy that came from nowhere, share of the energy put in
   lost      largest energy that is unaccounted, likewise
   friction  error of friction, share
-  failures  list of texts: runs that ended with an error, bodies that passed each other, sliding or motion where none should be
+  failures  list of texts: runs that ended with an error, bodies that passed each other, motion where none should be
 The cost is measured by the table.
 """
 
@@ -15,8 +15,6 @@ NO_LIMITS = ["[time]", "residual_limit = 1e3", "energy_gain_limit = 1e3"]
 # A run that gains or loses more would have been ended.
 GAIN_LIMIT, LOSS_LIMIT = 0.01, 0.05
 
-
-# --- cases -----------------------------------------------------------------------------------------------------------------------
 
 def material(groups, young, density=2000, poisson=0.2):
     return ["[[material]]", f"group = {list(groups)}".replace("'", '"'), f"young = {young}", f"poisson = {poisson}",
@@ -36,14 +34,25 @@ def ramp(to, start, end, before=0):
 
 
 def output(interval, gauges=()):
-    return ["[output]", "frame_interval = 0", f"history_interval = {interval}", f"gauges = {list(gauges)}".replace("'", '"')]
+    names = f"gauges = {list(gauges)}".replace("'", '"')
+    return ["[output]", "frame_interval = 0", f"history_interval = {interval}", names]
+
+
+def stage(end, gravity=(0, 0, 0), *more):
+    return ["[[stage]]", f"end = {end}", f"gravity = [{', '.join(map(str, gravity))}]", *more]
+
+
+def driven(group, velocity):
+    return ["[[stage.constraint]]", f'group = "{group}"', f"velocity = {{ {velocity} }}"]
+
+
+def thrown(group, velocity=(0, 0, 0), angular=(0, 0, 0)):
+    return ["[[initial_velocity]]", f'group = "{group}"', f"velocity = {list(velocity)}", f"angular = {list(angular)}"]
 
 
 def text(*parts, limits=NO_LIMITS):
     return "\n".join(['[mesh]', 'file = "MESH"', *(line for part in [*parts, limits] for line in part)]) + "\n"
 
-
-# --- what histories show ----------------------------------------------------------------------------------------------------------
 
 def put_in(history):
     first = history["kinetic"][0] + history["stored"][0] - history["work"][0]

@@ -45,7 +45,7 @@ class Mesh:
         self.surfaces = {}  # name -> triangles
 
     def grid(self, group, cells, place):
-        """A body of cells of six tetrahedra. @param place  from indices of a node, a real number each, to its position"""
+        """A body of cells of six tetrahedra. @param place  from the three indices of a node to its position"""
         first = len(self.nodes)
         counts = [n + 1 for n in cells]
         self.nodes += [place(i, j, k) for k in range(counts[2]) for j in range(counts[1]) for i in range(counts[0])]
@@ -117,8 +117,10 @@ class Mesh:
                  for n in [1 + groups.index(group)]]
         for n, faces in enumerate(self.surfaces.values(), 1 + len(groups)):
             cells += [f"2 2 {n} {n} " + " ".join(str(1 + c) for c in face) for face in faces]
-        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(names)), *names, "$EndPhysicalNames"]
+        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat"]
+        lines += ["$PhysicalNames", str(len(names)), *names, "$EndPhysicalNames"]
         lines += ["$Nodes", str(len(self.nodes))]
         lines += [f"{n} {x:.12g} {y:.12g} {z:.12g}" for n, (x, y, z) in enumerate(self.nodes, 1)]
-        lines += ["$EndNodes", "$Elements", str(len(cells)), *(f"{n} {cell}" for n, cell in enumerate(cells, 1)), "$EndElements"]
+        lines += ["$EndNodes", "$Elements", str(len(cells))]
+        lines += [*(f"{n} {cell}" for n, cell in enumerate(cells, 1)), "$EndElements"]
         return "\n".join(lines) + "\n"

@@ -2,12 +2,12 @@
 
 import math
 
-from cases import GRAVITY, at, balance, complete, contact, fixed, material, output, ramp, text
+from cases import GRAVITY, at, balance, complete, contact, driven, fixed, material, output, ramp, stage, text, thrown
 from meshes import Mesh
 
 
 class Rig:
-    """A plate is pressed on another one and driven along it: the mean of friction over normal force is the coefficient."""
+    """A plate is pressed on another one and driven along it: friction over normal force is the coefficient."""
 
     STEADY = 0.2  # standard deviation over mean of the normal force, above which the plates vibrate
 
@@ -26,8 +26,8 @@ class Rig:
         return {str(friction): (text(
             material(["upper", "lower"], 10e9),
             contact(["upper", "lower"], 10e9, f"friction = {friction}", 'points_on = "first"'),
-            ["[[stage]]", "end = 3e-3", "[[stage.pressure]]", 'surface = "top"', f"value = {ramp(2e6, 0, 0.5e-3)}"], fixed("lower"),
-            ["[[stage.constraint]]", 'group = "top"', f"velocity = {{ x = {ramp(0.5, 0.5e-3, 1e-3)}, y = 0 }}"],
+            stage(3e-3), ["[[stage.pressure]]", 'surface = "top"', f"value = {ramp(2e6, 0, 0.5e-3)}"],
+            fixed("lower"), driven("top", f"x = {ramp(0.5, 0.5e-3, 1e-3)}, y = 0"),
             output(5e-6, ["upper"])), self.mesh()) for friction in self.coefficients}
 
     def figures(self, results):
@@ -66,7 +66,7 @@ class Slopes:
                 cases[f"{degrees} {floor}"] = (text(
                     material(["block", "floor"], self.YOUNG),
                     contact(["block", "floor"], self.YOUNG, f"friction = {self.FRICTION}", 'points_on = "first"'),
-                    ["[[stage]]", "end = 0.13", f"gravity = [{x}, 0, {z}]"], fixed("floor"), output(1e-3, ["block"])),
+                    stage(0.13, [x, 0, z]), fixed("floor"), output(1e-3, ["block"])),
                     self.mesh(floor == "fine"))
         return cases
 
@@ -79,7 +79,8 @@ class Slopes:
             acceleration = 2 * ((x[c] - x[b]) / (t[c] - t[b]) - (x[b] - x[a]) / (t[b] - t[a])) / (t[c] - t[a])
             right = GRAVITY * (math.sin(angle) - self.FRICTION * math.cos(angle))
             if right > 0:
-                figures["friction"] = max(figures["friction"], abs(right - acceleration) / (self.FRICTION * GRAVITY * math.cos(angle)))
+                error = abs(right - acceleration) / (self.FRICTION * GRAVITY * math.cos(angle))
+                figures["friction"] = max(figures["friction"], error)
             elif abs(x[c] - x[b]) / (t[c] - t[b]) > self.STILL:
                 figures["failures"].append(f"{label}: slides with {(x[c] - x[b]) / (t[c] - t[b]):.2g} m/s")
         return figures
@@ -102,9 +103,9 @@ class Slides:
     def cases(self):
         return {label: (text(
             material(["block", "floor"], 20e6), contact(["block", "floor"], 20e6, f"friction = {friction}"),
-            ["[[initial_velocity]]", 'group = "block"', f"velocity = [{speed}, 0, 0]"],
-            ["[[stage]]", f"end = {1.15 * speed / (friction * GRAVITY)}", f"gravity = [0, 0, {-GRAVITY}]"], fixed("floor"),
-            output(1e-3, ["block"])), self.mesh(floor)) for label, (friction, speed, floor) in self.CASES.items()}
+            thrown("block", [speed, 0, 0]), stage(1.15 * speed / (friction * GRAVITY), [0, 0, -GRAVITY]),
+            fixed("floor"), output(1e-3, ["block"])), self.mesh(floor))
+            for label, (friction, speed, floor) in self.CASES.items()}
 
     def figures(self, results):
         figures = {**balance(results), "friction": 0.0}
@@ -118,7 +119,7 @@ class Slides:
 
 
 class Spins:
-    """A block that spins on a floor is stopped by the torque of friction; one that rides on a turntable does not slide."""
+    """A block that spins on a floor is stopped by the torque of friction; one on a turntable does not slide."""
 
     name = "spins"
     FRICTION, SIDE = 0.5, 0.02
@@ -133,9 +134,8 @@ class Spins:
         mesh.box("floor", [-a, -a, -a / 2], [a, a, 0], [3, 3, 1], jitter=0.2, seed=2)
         return text(material(["block", "floor"], 20e6),
                     contact(["block", "floor"], 0.4e6, f"friction = {self.FRICTION}", 'points_on = "first"'),
-                    ["[[initial_velocity]]", 'group = "block"', "angular = [0, 0, 60]"],
-                    ["[[stage]]", "end = 0.018", f"gravity = [0, 0, {ramp(-10 * GRAVITY, 0, 4e-3)}]"], fixed("floor"),
-                    output(5e-5, ["block"])), mesh.text()
+                    thrown("block", angular=[0, 0, 60]), stage(0.018, [0, 0, ramp(-10 * GRAVITY, 0, 4e-3)]),
+                    fixed("floor"), output(5e-5, ["block"])), mesh.text()
 
     def table_case(self):
         mesh, a, r = Mesh(), 0.01, self.RADIUS
@@ -144,9 +144,9 @@ class Spins:
         mesh.surface("underside", lambda x: abs(x[2] + 0.01) < 1e-9)
         return text(material(["block"], 20e6), material(["table"], 200e6, density=20000),
                     contact(["block", "table"], 20e6, f"friction = {self.FRICTION}", 'points_on = "first"'),
-                    ["[[initial_velocity]]", 'group = "block"', f"velocity = [0, {self.TURN * r}, 0]", f"angular = [0, 0, {self.TURN}]",
-                     "[[initial_velocity]]", 'group = "table"', f"angular = [0, 0, {self.TURN}]"],
-                    ["[[stage]]", "end = 0.13", f"gravity = [0, 0, {-GRAVITY}]", ], fixed("underside", "z"),
+                    thrown("block", [0, self.TURN * r, 0], [0, 0, self.TURN]),
+                    thrown("table", angular=[0, 0, self.TURN]),
+                    stage(0.13, [0, 0, -GRAVITY]), fixed("underside", "z"),
                     output(5e-4, ["block", "table"])), mesh.text()
 
     def cases(self):
@@ -160,12 +160,14 @@ class Spins:
             t, spin, normal = history["time"], history["block spin z"], history["block force z"]
             first = at(history, 4e-3)
             last = next((i for i in range(first, len(t)) if spin[i] < 5), len(t) - 1)
-            turned = sum(0.25 * (spin[i] + spin[i + 1]) * (normal[i] + normal[i + 1]) * (t[i + 1] - t[i]) for i in range(first, last))
+            turned = sum(0.25 * (spin[i] + spin[i + 1]) * (normal[i] + normal[i + 1]) * (t[i + 1] - t[i])
+                         for i in range(first, last))
             right = self.FRICTION * self.ARM * self.SIDE * turned
-            figures["friction"] = abs((history["friction"][last] - history["friction"][first]) / right - 1) if right > 0 else 1.0
+            rubbed = history["friction"][last] - history["friction"][first]
+            figures["friction"] = abs(rubbed / right - 1) if right > 0 else 1.0
         if "on a turntable" in done:
             history = done["on a turntable"]["history"]
-            away = [math.dist([history[f"block centre {c}"][i] for c in "xy"], [history[f"table centre {c}"][i] for c in "xy"])
+            away = [math.hypot(*(history[f"block centre {c}"][i] - history[f"table centre {c}"][i] for c in "xy"))
                     for i in (at(history, 0.02), -1)]
             if abs(away[1] - away[0]) > self.STILL:
                 figures["failures"].append(f"turntable: the block slides by {abs(away[1] - away[0]) * 1e3:.2g} mm")

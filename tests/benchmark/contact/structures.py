@@ -3,7 +3,8 @@
 import math
 import random
 
-from cases import GRAVITY, NO_LIMITS, at, balance, complete, contact, fixed, material, output, ramp, text
+from cases import (GRAVITY, NO_LIMITS, balance, complete, contact, driven, fixed, material, output, ramp, stage, text,
+                   thrown)
 from meshes import Mesh, random_rotation
 
 
@@ -32,9 +33,10 @@ class Arch:
 
     def cases(self):
         return {f"{thickness}": (text(
-            material(["stone", "pier"], 200e6), contact(["*", "*"], 50e6, "friction = 0.7"), ["[contact_points]", "per_face = 4"],
-            ["[[stage]]", "end = 0.15", f"gravity = [0, {ramp(-GRAVITY, 0, 0.1)}, 0]", "mass_damping = 20"], fixed("pier"),
-            ["[[stage]]", "end = 0.45", f"gravity = [0, {-GRAVITY}, 0]"], fixed("pier"), output(2e-3)),
+            material(["stone", "pier"], 200e6), contact(["*", "*"], 50e6, "friction = 0.7"),
+            ["[contact_points]", "per_face = 4"],
+            stage(0.15, [0, ramp(-GRAVITY, 0, 0.1), 0], "mass_damping = 20"), fixed("pier"),
+            stage(0.45, [0, -GRAVITY, 0]), fixed("pier"), output(2e-3)),
             self.mesh(thickness)) for thickness in (0.115, 0.1)}
 
     def figures(self, results):
@@ -77,8 +79,7 @@ class Seam:
                 floor[-1] = floor[-1] if split else 'joints = "breakable"'
                 case = text(floor, material(["block"], 20e6), law, contact(["*", "*"], 20e6, "damping_ratio = 0.05"),
                             ["[contact_points]", f"per_face = {points}"],
-                            ["[[initial_velocity]]", 'group = "block"', f"velocity = [{self.SPEED}, 0, 0]"],
-                            ["[[stage]]", "end = 0.035", f"gravity = [0, 0, {-GRAVITY}]"], fixed("underside"),
+                            thrown("block", [self.SPEED, 0, 0]), stage(0.035, [0, 0, -GRAVITY]), fixed("underside"),
                             output(5e-4, ["block"]))
                 if not split:
                     case = case.replace("[mesh]\n", "[mesh]\nglue = true\n")
@@ -122,16 +123,16 @@ class Platens:
         for friction in (0, 0.3):
             cases[f"struck {friction}"] = (text(
                 material(["rock"], 30e9), material(["top", "bottom"], 200e9),
-                contact(["*", "*"], 300e9, f"friction = {friction}"), ["[[stage]]", "end = 1"], fixed("foot"),
-                ["[[stage.constraint]]", 'group = "drive"', f"velocity = {{ x = 0, z = 0, y = {ramp(0, 0, 20e-6, -0.5)} }}"],
+                contact(["*", "*"], 300e9, f"friction = {friction}"), stage(1), fixed("foot"),
+                driven("drive", f"x = 0, z = 0, y = {ramp(0, 0, 20e-6, -0.5)}"),
                 output(10e-6), limits=[*NO_LIMITS, "max_steps = 8000"]), self.struck())
         struck, mesh = cases["struck 0.3"]
         cases["struck, joints"] = (struck.replace('"none"', '"unbreakable"', 1).replace(
             "[[contact]]", '[[joint]]\ngroup = "rock"\npenalty_factor = 5\n[[contact]]', 1), mesh)
         cases["squeezed 0.3"] = (text(
             ["[plane]", 'kind = "strain"'], material(["rock", "top", "bottom"], 30e9),
-            contact(["*", "*"], 30e9, "friction = 0.3"), ["[[stage]]", "end = 3e-3"], fixed("bottom", "xy"),
-            ["[[stage.constraint]]", 'group = "top"', f"velocity = {{ x = 0, y = {ramp(0, 0, 1e-3, -2)} }}"], output(1e-4)), self.squeezed())
+            contact(["*", "*"], 30e9, "friction = 0.3"), stage(3e-3), fixed("bottom", "xy"),
+            driven("top", f"x = 0, y = {ramp(0, 0, 1e-3, -2)}"), output(1e-4)), self.squeezed())
         return cases
 
     def figures(self, results):
@@ -139,7 +140,7 @@ class Platens:
 
 
 class Debris:
-    """Loose tetrahedra fall on a floor with the laws of meshes/cooling_tower: what contact costs, and that nothing falls through."""
+    """Loose tetrahedra fall on a floor with the laws of meshes/cooling_tower: the cost of contact."""
 
     name = "debris"
     SIDE, CUBES = 2.3, 4  # m, -
@@ -178,8 +179,7 @@ class Debris:
         return {"heap": (text(
             material(["debris", "floor"], 35e9, density=2400, poisson=0.15),
             contact(["*", "floor"], 1.8e12, *self.FLOOR), contact(["*", "*"], 8.3e9, *self.LAW),
-            ["[[initial_velocity]]", 'group = "debris"', "velocity = [0, 0, -30]"],
-            ["[[stage]]", f"end = {self.time}", f"gravity = [0, 0, {-GRAVITY}]"], fixed("floor"),
+            thrown("debris", [0, 0, -30]), stage(self.time, [0, 0, -GRAVITY]), fixed("floor"),
             output(self.time / 200, ["debris"])), self.mesh())}
 
     def figures(self, results):
