@@ -73,8 +73,10 @@ def balance(results, from_line=0):
             continue
         most = put_in(result["history"])
         shares = [residual / most for residual in result["history"]["residual"][from_line:]]
-        if -min(shares) > GAIN_LIMIT or max(shares) > LOSS_LIMIT:
-            failures.append(f"{label}: gains {-min(shares):.1%}, loses {max(shares):.1%}")
+        if -min(shares) > GAIN_LIMIT:
+            failures.append(f"{label}: gains {-min(shares):.2g} of the energy put in")
+        if max(shares) > LOSS_LIMIT:
+            failures.append(f"{label}: loses {max(shares):.2g} of it")
         gain, lost = max(gain, -min(shares)), max(lost, max(shares))
     return {"gain": max(gain, 0.0), "lost": max(lost, 0.0), "failures": failures}
 
