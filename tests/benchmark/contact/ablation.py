@@ -31,6 +31,7 @@ PAIRS = ["closing_pull,remembered_gain", "facing_sides,prefer_facing_side", "fac
 LEAST = {"gain": 1e-4, "lost": 1e-3, "friction": 2e-3, "unsteady": 0.02, "failed": 0.5}
 PERCENT = ["gain", "lost", "friction", "unsteady"]
 DEARER = {"cost": 1.25, "instructions": 1.02}  # CPU time beside other work scatters
+SHOWN = 3  # failures of a row in an experiment
 CONTACT_FORCES = "breccia::contact_forces(breccia::ContactParams*"
 ALL = "all rules"
 
@@ -143,6 +144,15 @@ def is_worse(column, value, base):
     return value > LEAST[column] and value > 2 * base
 
 
+def worse(row, base_row, wide, found):
+    """The figures that are worse than with all rules, in words."""
+    for name, column in wide:
+        value, base = found[row, name][column], found[base_row, name][column]
+        if is_worse(column, value, base):
+            unit = " %" if column in PERCENT else ""
+            yield f"{name}: {column} {shown(column, base)} to {shown(column, value)}{unit}"
+
+
 def write_tables(folder, rows, chosen, found):
     wide = columns(rows, chosen, found)
     with open(folder / "table.csv", "w", newline="", encoding="utf-8") as file:
@@ -150,6 +160,7 @@ def write_tables(folder, rows, chosen, found):
         writer.writerow(["without", *(f"{name}: {column}" for name, column in wide)])
         for row in rows:
             writer.writerow([row, *(f"{found[row, name][column]:.4g}" for name, column in wide)])
+    names = [e.name for e in chosen]
     heads = [f"{name}: {column}" + (", %" if column in PERCENT else "") for name, column in wide]
     lines = ["| without | " + " | ".join(heads) + " |", "|---" * (len(wide) + 1) + "|"]
     for row in rows:
@@ -159,9 +170,17 @@ def write_tables(folder, rows, chosen, found):
             bold = "**" if row != rows[0] and is_worse(column, value, base) else ""
             cells.append(bold + shown(column, value) + bold)
         lines.append(f"| {row.replace(',', ', ')} | " + " | ".join(cells) + " |")
-    lines += ["", "Failures:", ""]
-    lines += [f"- {row.replace(',', ', ')}: {name}: {failure}" for row in rows for name in (e.name for e in chosen)
-              for failure in found[row, name]["failures"]]
+    lines += ["", "Worse without it:", "", "| without | worse |", "|---|---|"]
+    lines += [f"| {row.replace(',', ', ')} | " + "; ".join(worse(row, rows[0], wide, found)) + " |" for row in rows[1:]]
+    lines += ["", "Failures, without those with all rules:", ""]
+    usual = {(name, failure) for name in names for failure in found[rows[0], name]["failures"]}
+    lines += [f"- {rows[0]}: {name}: {failure}" for name, failure in sorted(usual)]
+    for row in rows[1:]:
+        for name in names:
+            new = [failure for failure in found[row, name]["failures"] if (name, failure) not in usual]
+            more = f"; {len(new) - SHOWN} more" if len(new) > SHOWN else ""
+            if new:
+                lines.append(f"- {row.replace(',', ', ')}: {name}: " + "; ".join(new[:SHOWN]) + more)
     (folder / "table.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
     print("\n".join(lines))
 
