@@ -20,7 +20,7 @@ from concurrent.futures import ThreadPoolExecutor
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "verification"))
 import fragmentations  # noqa: E402
 import piles  # noqa: E402
-from impacts import Impacts, RandomCases, Rest  # noqa: E402
+from impacts import Aligned, Impacts, RandomCases, Rest  # noqa: E402
 from rubbing import Rig, Slides, Slopes, Spins  # noqa: E402
 from structures import Arch, Debris, Platens, Seam  # noqa: E402
 
@@ -38,7 +38,7 @@ ALL = "all rules"
 
 def experiments(long):
     """@param long  more seeds, and a longer fall of the debris"""
-    return [Impacts(steep=False), Impacts(steep=True), Rest(),
+    return [Impacts(steep=False), Impacts(steep=True), Aligned(), Rest(),
             RandomCases("piles", piles, range(1, 31) if long else [3, 8, 11, 12]),
             RandomCases("fragmentations", fragmentations, range(1, 51) if long else [7, 21, 107, 325]),
             Rig("rig", [0.3, 0.6]), Rig("rig at 0.9", [0.9]), Slopes(), Slides(), Spins(),

@@ -125,3 +125,28 @@ class RandomCases:
 
     def figures(self, results):
         return balance(results)
+
+
+class Aligned:
+    """A cube falls flat on a floor of equal, regular cells: points lie on the borders of elements, where one counts."""
+
+    name = "aligned"
+    WITHIN = 0.1  # the largest force by other points of a face against that by three
+
+    def cases(self):
+        mesh, a = Mesh(), 0.02
+        mesh.box("floor", [-2 * a, -2 * a, -a], [2 * a, 2 * a, 0], [8, 8, 2])
+        mesh.box("cube", [-a / 2, -a / 2, 1e-6], [a / 2, a / 2, a], [2, 2, 2])
+        return {str(points): (text(
+            material(["cube", "floor"], 20e6), contact(["*", "*"], 20e6), ["[contact_points]", f"per_face = {points}"],
+            thrown("cube", [0, 0, -0.5]), stage(0.01), fixed("floor"), output(2e-5, ["cube"])),
+            mesh.text()) for points in (3, 4, 6)}
+
+    def figures(self, results):
+        figures = balance(results, from_line=-1)
+        force = {label: max(result["history"]["cube force z"]) for label, result in complete(results).items()}
+        for label in force:
+            ratio = force[label] / force.get("3", force[label])
+            if abs(ratio - 1) > self.WITHIN:
+                figures["failures"].append(f"{label} points: the largest force is {ratio:.2f} times that by 3")
+        return figures

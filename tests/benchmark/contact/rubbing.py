@@ -6,6 +6,12 @@ from cases import GRAVITY, at, balance, complete, contact, driven, fixed, materi
 from meshes import Mesh
 
 
+def deviation(values):
+    """Standard deviation over mean."""
+    mean = sum(values) / len(values)
+    return math.sqrt(sum((value - mean) ** 2 for value in values) / len(values)) / abs(mean)
+
+
 class Rig:
     """A plate is pressed on another one and driven along it: friction over normal force is the coefficient."""
 
@@ -35,8 +41,7 @@ class Rig:
         for label, result in complete(results).items():
             history = result["history"]
             x, z = (history[f"upper force {axis}"][at(history, 1.5e-3):] for axis in "xz")
-            mean = sum(z) / len(z)
-            spread = math.sqrt(sum((f - mean) ** 2 for f in z) / len(z)) / abs(mean)
+            spread = deviation(z)
             figures["friction"] = max(figures["friction"], abs(abs(sum(x) / sum(z)) / float(label) - 1))
             figures["unsteady"] = max(figures["unsteady"], spread)
             if spread > self.STEADY:
@@ -45,37 +50,41 @@ class Rig:
 
 
 class Slopes:
-    """A block on a slope just below and above its angle of friction, on a coarse and a fine floor."""
+    """A block on a slope just below and above its angle of friction, and for longer on a steeper one; two floors."""
 
     name = "slopes"
     YOUNG, FRICTION, STILL = 20e6, 0.5, 1e-3  # Pa, -, m/s
+    STEADY = 0.2  # as of Rig
 
     @staticmethod
-    def mesh(fine):
+    def mesh(end, cells):
         mesh = Mesh()
         mesh.box("block", [0, -0.01, 1e-8], [0.04, 0.03, 0.02], [4, 4, 2], jitter=0.2, seed=1)
-        mesh.box("floor", [-0.04, -0.03, -0.02], [0.08, 0.05, 0], [11, 7, 2] if fine else [3, 2, 1], jitter=0.2, seed=2)
+        mesh.box("floor", [-0.04, -0.03, -0.02], [end, 0.05, 0], cells, jitter=0.2, seed=2)
         return mesh.text()
 
     def cases(self):
         cases = {}
-        for degrees in (26, 28):
-            for floor in ("coarse", "fine"):
+        for degrees in (26, 28, 30):
+            long = degrees == 30
+            meshes = {"coarse": self.mesh(0.32, [9, 2, 1]), "fine": self.mesh(0.32, [36, 7, 1])} if long else {
+                "coarse": self.mesh(0.08, [3, 2, 1]), "fine": self.mesh(0.08, [11, 7, 2])}
+            for floor, mesh in meshes.items():
                 angle = math.radians(degrees)
                 x, z = (ramp(GRAVITY * math.sin(angle), 0.04, 0.06), ramp(-GRAVITY * math.cos(angle), 0, 0.04))
                 cases[f"{degrees} {floor}"] = (text(
                     material(["block", "floor"], self.YOUNG),
                     contact(["block", "floor"], self.YOUNG, f"friction = {self.FRICTION}", 'points_on = "first"'),
-                    stage(0.13, [x, 0, z]), fixed("floor"), output(1e-3, ["block"])),
-                    self.mesh(floor == "fine"))
+                    stage(0.5 if long else 0.13, [x, 0, z]), fixed("floor"), output(1e-3, ["block"])), mesh)
         return cases
 
     def figures(self, results):
-        figures = {**balance(results), "friction": 0.0}
+        figures = {**balance(results), "friction": 0.0, "unsteady": 0.0}
         for label, result in complete(results).items():
             history, angle = result["history"], math.radians(float(label.split()[0]))
             t, x = history["time"], history["block displacement x"]
-            a, b, c = at(history, 0.07), at(history, 0.0995), len(t) - 1
+            a, c = at(history, 0.07), len(t) - 1
+            b = at(history, t[a] + 0.495 * (t[c] - t[a]))
             acceleration = 2 * ((x[c] - x[b]) / (t[c] - t[b]) - (x[b] - x[a]) / (t[b] - t[a])) / (t[c] - t[a])
             right = GRAVITY * (math.sin(angle) - self.FRICTION * math.cos(angle))
             if right > 0:
@@ -83,6 +92,10 @@ class Slopes:
                 figures["friction"] = max(figures["friction"], error)
             elif abs(x[c] - x[b]) / (t[c] - t[b]) > self.STILL:
                 figures["failures"].append(f"{label}: slides with {(x[c] - x[b]) / (t[c] - t[b]):.2g} m/s")
+            spread = deviation(history["block force z"][b:])
+            figures["unsteady"] = max(figures["unsteady"], spread)
+            if spread > self.STEADY:
+                figures["failures"].append(f"{label}: vibrates by {spread:.0%} of the normal force")
         return figures
 
 
