@@ -12,7 +12,7 @@
 #include "base/quantity_text.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "model/parameters.hpp"
-#include "physics/contact/contact_point.hpp"
+#include "physics/contact/geometry/point.hpp"
 
 namespace breccia {
 namespace {

@@ -5,8 +5,8 @@
 #include "base/error.hpp"
 #include "base/index.hpp"
 #include "contact/contact_search.hpp"
-#include "physics/contact/contact_couples.hpp"
-#include "physics/contact/contact_point.hpp"
+#include "physics/contact/couples.hpp"
+#include "physics/contact/geometry/point.hpp"
 
 /// The part of ContactSearch that stores its state in records and restores it from them.
 namespace breccia {

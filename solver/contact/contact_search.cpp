@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/index.hpp"
-#include "physics/contact/contact_couples.hpp"
+#include "physics/contact/couples.hpp"
 
 namespace breccia {
 

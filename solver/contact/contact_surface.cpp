@@ -9,8 +9,8 @@
 #include "contact/contactors.hpp"
 #include "mesh/quality.hpp"
 #include "model/plane.hpp"
-#include "physics/contact/contact_couples.hpp"
-#include "physics/contact/contact_field.hpp"
+#include "physics/contact/couples.hpp"
+#include "physics/contact/geometry/field.hpp"
 
 namespace breccia {
 

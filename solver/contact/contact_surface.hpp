@@ -8,8 +8,8 @@
 #include "contact/search_params.hpp"
 #include "mesh/corner_clusters.hpp"
 #include "mesh/topology.hpp"
-#include "physics/contact/contact_params.hpp"
-#include "physics/contact/contact_state.hpp"
+#include "physics/contact/params.hpp"
+#include "physics/contact/state.hpp"
 
 namespace breccia {
 

@@ -6,8 +6,8 @@
 
 #include "base/index.hpp"
 #include "detection/point_body/couple_test.hpp"
-#include "physics/contact/contact_couples.hpp"
-#include "physics/contact/contact_field.hpp"
+#include "physics/contact/couples.hpp"
+#include "physics/contact/geometry/field.hpp"
 
 namespace breccia {
 

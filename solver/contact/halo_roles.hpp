@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/extent.hpp"
-#include "physics/contact/contact_state.hpp"
+#include "physics/contact/state.hpp"
 
 namespace breccia {
 

@@ -10,7 +10,7 @@
 #include "mesh/geometry.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "mesh/triangle_tree.hpp"
-#include "physics/contact/contact_field.hpp"
+#include "physics/contact/geometry/field.hpp"
 
 namespace breccia {
 namespace {
@@ -214,7 +214,7 @@ void relax_initial_overlaps(const ContactParams& params, const LocalMesh& local,
         outward_normal(contact.points[at(point)], [&](Index node) { return load_node(position.data(), node); });
     const double overlap = overlap_value(
         shape, lambda, has_sides(params, contact, couple.contactor) ? rows_for(shape, tetra, outward) : kAllRows);
-    if (overlap > 0) contact.touching.push_back({.point = point, .contactor = couple.contactor, .offset = overlap});
+    if (overlap > 0) contact.touching.push_back({point, couple.contactor, {.offset = overlap}});
   }
 }
 

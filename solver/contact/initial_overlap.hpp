@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/model.hpp"
-#include "physics/contact/contact_state.hpp"
+#include "physics/contact/state.hpp"
 
 namespace breccia {
 

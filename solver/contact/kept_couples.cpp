@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/index.hpp"
-#include "physics/contact/contact_couples.hpp"
+#include "physics/contact/couples.hpp"
 
 namespace breccia {
 
@@ -63,6 +63,7 @@ bool KeptCouples::add(std::vector<ContactCouple>& made) {
 void KeptCouples::choose_again(const std::vector<ContactCouple>& made) {
   const auto before = [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); };
   std::vector<ContactCouple>& couples = contact_.couples;
+  put_awake_back(contact_);
   couples.swap(all_);
   const auto middle = couples.insert(couples.end(), made_since_.begin(), made_since_.end());
   std::sort(middle, couples.end(), before);

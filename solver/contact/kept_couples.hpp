@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "physics/contact/contact_state.hpp"
+#include "physics/contact/state.hpp"
 
 namespace breccia {
 

@@ -70,6 +70,8 @@ class NodalForces {
     const Index s = slot_[static_cast<std::size_t>(own_block)];
     return s < 0 ? nullptr : own_.data() + static_cast<std::size_t>(s) * 96;
   }
+  /// The same of a block on which something is going to act. Valid until the next call that is not const.
+  [[nodiscard]] double* acted_block(Index own_block) { return this->own_block(static_cast<std::size_t>(own_block)); }
   /// Slot of each own-node block, -1: none; and the storage they index, 96 doubles each. For the sweep.
   [[nodiscard]] const Index* slots() const { return slot_.data(); }
   [[nodiscard]] const double* own() const { return own_.data(); }

@@ -6,7 +6,7 @@
 #include "base/index.hpp"
 #include "domains/mesh_records.hpp"
 #include "mesh/geometry.hpp"
-#include "physics/contact/contact_field.hpp"
+#include "physics/contact/geometry/field.hpp"
 
 namespace breccia {
 namespace {

@@ -37,9 +37,15 @@ struct StepParts {
 [[nodiscard]] StableStep global_stable_step(const Communicator& communicator, const TimeStep& time_step,
                                             const StepState& state, double steps);
 
+/// Lengths of the step, s, that make no difference to who requests it; 0, 0: none.
+struct StepRange {
+  double low = 0, high = 0;
+};
+
 /// Its length alone, s, bitwise the same, at lower cost: possible contacts are evaluated only where they could still
-/// shorten it. Collective. O(elements + patches)
+/// shorten it. Where bounds show that it lies in the range, that costs less still, and range.low is returned.
+/// Collective. O(elements + patches)
 [[nodiscard]] double global_step_length(const Communicator& communicator, const TimeStep& time_step,
-                                        const StepState& state, double steps);
+                                        const StepState& state, double steps, const StepRange& range = {});
 
 }  // namespace breccia

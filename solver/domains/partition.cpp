@@ -231,9 +231,9 @@ StableStep Partition::stable_step(double steps) const {
   return global_stable_step(communicator_, *time_step_, step_state(), steps);
 }
 
-double Partition::step_length(double steps) const {
+double Partition::step_length(double steps, const StepRange& range) const {
   const auto lap = domain_->timer.measure(Phase::stable_step);
-  return global_step_length(communicator_, *time_step_, step_state(), steps);
+  return global_step_length(communicator_, *time_step_, step_state(), steps, range);
 }
 
 double Partition::step_length(const case_::Stage& stage, double steps) const {

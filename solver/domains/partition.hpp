@@ -71,8 +71,8 @@ class Partition {
   /// Stable step of the whole model at present under the constraints of the stage. Collective.
   /// @param steps  of it until the next call
   [[nodiscard]] StableStep stable_step(double steps) const;
-  /// Its length alone, s, in less time. Collective.
-  [[nodiscard]] double step_length(double steps) const;
+  /// Its length alone, s, in less time. Collective. @param range  as for global_step_length
+  [[nodiscard]] double step_length(double steps, const StepRange& range = {}) const;
   /// The same under the constraints of another stage.
   [[nodiscard]] double step_length(const case_::Stage& stage, double steps) const;
 

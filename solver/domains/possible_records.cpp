@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "domains/piece_mesh.hpp"
 #include "model/strength_scatter.hpp"
-#include "physics/contact/contact_point.hpp"
+#include "physics/contact/geometry/point.hpp"
 
 namespace breccia {
 namespace {

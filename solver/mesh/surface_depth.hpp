@@ -11,7 +11,7 @@
 namespace breccia {
 
 /// What a whole model at rest knows of its free surface: what the overlap field of contact is made of
-/// (physics/contact/contact_field.hpp).
+/// (physics/contact/geometry/field.hpp).
 struct SurfaceDepth {
   std::vector<std::uint8_t> on_surface;  ///< (mesh nodes) 1: a corner of a free face
   std::vector<double> depth;             ///< (mesh nodes) m, > 0

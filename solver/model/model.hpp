@@ -15,7 +15,7 @@
 #include "mesh/topology.hpp"
 #include "model/plane.hpp"
 #include "model/whole_model.hpp"
-#include "physics/contact/contact_params.hpp"
+#include "physics/contact/params.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/joint_law.hpp"
 

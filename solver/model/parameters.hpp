@@ -5,7 +5,7 @@
 
 #include "case/case.hpp"
 #include "model/stage_loads.hpp"
-#include "physics/contact/contact_params.hpp"
+#include "physics/contact/params.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/initial_velocity.hpp"
 #include "physics/joint_law.hpp"

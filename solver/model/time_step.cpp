@@ -39,11 +39,16 @@ std::vector<bool> groups_with_contact(const Model& model) {
 }  // namespace
 
 TimeStep::TimeStep(const Model& model, const RankOperations& ranks)
-    : model_(model), touched_(groups_with_contact(model)), links_(build_links(model)), joints_(other_joints(model)) {
+    : model_(model),
+      touched_(groups_with_contact(model)),
+      links_(build_links(model)),
+      joints_(other_joints(model)),
+      memory_(step_model()) {
   if (model.has_contact) mark_faces();
   ratio_ = model.whole.step_ratio;
   if (ratio_ > 0) return;
-  const double bound = ranks.max(stiffest(step_model(), step_shares(step_model(), model.local.reference)));
+  memory_.elements.update(step_model(), model.local.reference);
+  const double bound = ranks.max(memory_.elements.stiffest(model.local));
   ratio_ = std::max(1.0, std::sqrt(bound / largest_eigenvalue(step_model(), ranks)));
 }
 

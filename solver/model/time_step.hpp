@@ -6,17 +6,26 @@
 #include "mesh/corner_clusters.hpp"
 #include "model/model.hpp"
 #include "model/stage_loads.hpp"
-#include "physics/contact/contact_step.hpp"
+#include "physics/contact/step/elements.hpp"
+#include "physics/element_shares.hpp"
 #include "physics/largest_eigenvalue.hpp"
 #include "physics/stable_step.hpp"
 
 namespace breccia {
 
+/// What evaluations of the stable step keep for the next one; none of it changes their results.
+struct StepMemory {
+  explicit StepMemory(const StepModel& model) : elements(model) {}
+  ElementShares elements;
+  ContactElements contacts;
+  Index limiter = -1;  ///< slot of the original with the shortest step of this rank, when that was last found
+};
+
 /// The stable step of a model, as far as the discretisation decides it.
 ///
 /// The bound by element is cheap and follows the deformation; at rest the true limit of the linear system without
 /// contact is larger by a ratio that is found once by iteration and kept: fracture makes nothing stiffer. Contact is
-/// added to each element by physics/contact/contact_step.hpp.
+/// added to each element by physics/contact/step/contact_step.hpp.
 class TimeStep {
  public:
   /// @param ranks  the other ranks, where the ratio is not known yet (WholeModel::step_ratio) and the model is a piece:
@@ -37,8 +46,7 @@ class TimeStep {
   /// (num_nodes) 1: a stage's constraints prescribe its motion in all directions.
   [[nodiscard]] std::vector<std::uint8_t> held_nodes(const std::vector<NodalConstraint>& constraints) const;
   [[nodiscard]] const Model& model() const { return model_; }
-  /// Contributions of open faces to the step, kept between evaluations.
-  [[nodiscard]] ContactElements& contact_elements() const { return contact_elements_; }
+  [[nodiscard]] StepMemory& memory() const { return memory_; }
 
  private:
   void mark_faces();
@@ -49,7 +57,7 @@ class TimeStep {
   std::vector<JointStiffness> joints_;
   ContactFaces at_rest_;  ///< open: from the start; pointed: if it comes to be open
   double ratio_ = 1.0;
-  mutable ContactElements contact_elements_;
+  mutable StepMemory memory_;
 };
 
 /// "the joint between elements 17 and 43".

@@ -6,7 +6,7 @@
 
 #include "base/index.hpp"
 #include "mesh/tetrahedron.hpp"
-#include "physics/contact/patch_tree.hpp"
+#include "physics/contact/step/patch_tree.hpp"
 
 namespace breccia {
 namespace {

@@ -11,7 +11,7 @@
 #include "observe/corner_values.hpp"
 #include "observe/shown_memory.hpp"
 #include "physics/cauchy_stress.hpp"
-#include "physics/contact/overlap.hpp"
+#include "physics/contact/geometry/overlap.hpp"
 
 namespace breccia {
 namespace {
@@ -189,7 +189,7 @@ Vec3 slip_velocity(const Domain& domain, const TouchingCouple& couple) {
       barycentric(prepare(load_corners(local, x, slot), local.volume[at(slot)]), at_point(rule, point, x));
   Vec3 relative = at_point(rule, point, v);
   for (int c = 0; c < 4; ++c) relative -= lambda[at(c)] * load_node(v, local.corner_node(slot, c));
-  const Vec3 normal = couple.force - couple.friction;
+  const Vec3 normal = couple.history.force - couple.history.friction;
   const double square = normal.squaredNorm();
   if (!(square > 0)) return relative;
   return relative - relative.dot(normal) / square * normal;
@@ -208,14 +208,14 @@ void add_contacts(const Domain& domain, Frame::Contacts& out) {
   DEMAND(elements < kMostElements, std::to_string(elements));
   for (const TouchingCouple& couple : contact.touching) {
     const ContactPoint& point = contact.points[at(couple.point)];
-    if (couple.force.squaredNorm() == 0.0 || !local.is_original(point.slot)) continue;
+    if (couple.history.force.squaredNorm() == 0.0 || !local.is_original(point.slot)) continue;
     const Index other = contact.contactors[at(couple.contactor)];
     out.id.push_back(point.id * elements + local.element_of_slot[at(other)]);
     out.point.push_back(point.id);
     append(out.points, at_point(rule, point, x));
-    append(out.force, couple.force);
-    append(out.normal_force, couple.force - couple.friction);
-    append(out.tangential_force, couple.friction);
+    append(out.force, couple.history.force);
+    append(out.normal_force, couple.history.force - couple.history.friction);
+    append(out.tangential_force, couple.history.friction);
     append(out.slip_velocity, slip_velocity(domain, couple));
     out.body.push_back(local.slot_body[at(point.slot)]);
     out.other_body.push_back(local.slot_body[at(other)]);

@@ -4,14 +4,12 @@
 // same operations in the same order for every T, hence the same bits. No function here is compiled for a plain type in
 // a unit of a wider instruction set (reason: sweep_kernel.hpp): all are templates over T.
 
-#include <experimental/simd>
-
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
 
 #include "physics/elasticity.hpp"
+#include "physics/lanes.hpp"
 
 namespace breccia::joint_point {
 
@@ -19,34 +17,9 @@ using elasticity::greater;
 using elasticity::lesser;
 using elasticity::select;
 using elasticity::Vector;
-
-template <class T>
-struct MaskOf {
-  using type = typename T::mask_type;
-};
-template <>
-struct MaskOf<double> {
-  using type = bool;
-};
-template <class T>
-using Mask = typename MaskOf<T>::type;
-
-template <class M>
-[[nodiscard]] inline bool any(const M& mask) {
-  if constexpr (std::is_same_v<M, bool>) {
-    return mask;
-  } else {
-    return std::experimental::any_of(mask);
-  }
-}
-template <class M>
-[[nodiscard]] inline bool all(const M& mask) {
-  if constexpr (std::is_same_v<M, bool>) {
-    return mask;
-  } else {
-    return std::experimental::all_of(mask);
-  }
-}
+using lanes::all;
+using lanes::any;
+using lanes::Mask;
 
 template <class T>
 [[nodiscard]] inline T root(const T& x) {

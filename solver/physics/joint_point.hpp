@@ -148,7 +148,7 @@ template <class T>
 /// straight line between both tractions takes. Nor is what the viscous traction gives back, where the motion turns
 /// round, less dissipated. Each point counts what it has gained so, and a traction takes it or gives it back, half in
 /// this step and half in the next one, taken to move as this one; what it does instead is counted again. It is no
-/// larger than such a step can leave over, as in contact/contact_balance.hpp. A point that chatters, to and fro from
+/// larger than such a step can leave over, as in contact/correction.hpp. A point that chatters, to and fro from
 /// step to step, is given nothing, and all is taken at once: of a force that acts over a way and back nothing is left.
 /// @param last, now  at the last evaluation with the damage of then; at this one
 /// @param on       damaged before this evaluation;  @param damaged  after it

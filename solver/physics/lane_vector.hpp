@@ -46,4 +46,15 @@ struct LaneVector {
   }
 };
 
+/// Vectors over a number type: LaneVector, of doubles Vec3 (number_vector.hpp, which units of wider instruction sets
+/// cannot include: Eigen demands FMA there, which changes the bits).
+template <class T>
+struct VectorOver {
+  using Type = LaneVector<T>;
+};
+template <>
+struct VectorOver<double>;
+template <class T>
+using VectorOf = typename VectorOver<T>::Type;
+
 }  // namespace breccia

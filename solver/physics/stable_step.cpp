@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "physics/element_shares.hpp"
 #include "physics/largest_eigenvalue.hpp"
 
 namespace breccia {
@@ -15,125 +16,6 @@ double step_of(double omega_squared, double damping) {
   const double omega = std::sqrt(omega_squared);
   const double xi = 0.5 * damping / omega;
   return 2.0 / (omega * (std::sqrt(1.0 + xi * xi) + xi));
-}
-
-/// Ratio of viscous to elastic stiffness of pressure waves, s.
-double viscous_ratio(const ElasticParams& p) { return 2.0 * p.viscosity / (p.lambda + 2.0 * p.mu); }
-
-const ElasticParams& params_of(const StepModel& model, Index slot) {
-  return model.params[static_cast<std::size_t>(model.mesh.block_group[static_cast<std::size_t>(slot / kLanes)])];
-}
-
-double element_share(const StepModel& model, Index slot, const Field<double>& position) {
-  namespace el = elasticity;
-  const LocalMesh& mesh = model.mesh;
-  const auto s = static_cast<std::size_t>(slot);
-  const ElasticParams& p = params_of(model, slot);
-  el::Corners<double> x;
-  for (int c = 0; c < 4; ++c) {
-    const Vec3 corner = load_node(position.data(), mesh.corner_node(slot, c));
-    x[static_cast<std::size_t>(c)] = {corner[0], corner[1], corner[2]};
-  }
-  el::Tensor<double> g;
-  for (std::size_t i = 0; i < 9; ++i) g[i] = mesh.gradient[s / kLanes * 72 + i * kLanes + s % kLanes];
-  const el::Tensor<double> f = el::deformation<double>(x, g);
-  const double density = model.density[static_cast<std::size_t>(mesh.block_group[s / kLanes])];
-  if (has_memory(p.law)) return 4.0 / density * bulk_stiffness(p, f, model.memory.of(slot), g);
-  const el::Tensor<double> cof = el::cofactor(f);
-  const double j = el::determinant(f, cof);
-
-  // Below j_min psi' keeps falling while psi'' stays: the part psi'(J) d2J of the tangent comes to the front.
-  double size = 0;
-  for (const double entry : f) size += entry * entry;
-  const double excess = std::max(0.0, el::volumetric_slope(p.j_min, p) - el::volumetric_slope(j, p)) * std::sqrt(size);
-
-  double plain = 0, turned = 0;  // sums over the four corners of |g_a|^2 and |cof F g_a|^2
-  for (std::size_t a = 0; a < 4; ++a) {
-    el::Vector<double> grad{};
-    for (std::size_t i = 0; i < 3; ++i) grad[i] = a < 3 ? g[3 * a + i] : -(g[i] + g[3 + i] + g[6 + i]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double t = cof[3 * i] * grad[0] + cof[3 * i + 1] * grad[1] + cof[3 * i + 2] * grad[2];
-      plain += grad[i] * grad[i];
-      turned += t * t;
-    }
-  }
-  return 4.0 / density * ((p.mu + excess) * plain + el::volumetric_curvature(el::clamped(j, p), p) * turned);
-}
-
-/// k A0/3 of every joint on the faces of own-node elements, [slot][face], and on shared nodes.
-struct JointSums {
-  std::vector<std::array<double, 4>> own;
-  std::vector<double> shared;
-};
-
-JointSums joint_sums(const StepModel& model) {
-  const LocalMesh& mesh = model.mesh;
-  JointSums sums{std::vector<std::array<double, 4>>(static_cast<std::size_t>(mesh.num_own_slots)),
-                 std::vector<double>(static_cast<std::size_t>(mesh.num_nodes - mesh.num_own_nodes()), 0.0)};
-  for (Index s = 0; s < mesh.num_own_slots; ++s) {
-    for (int f = 0; f < 4; ++f)
-      sums.own[static_cast<std::size_t>(s)][static_cast<std::size_t>(f)] = model.links.stiffness[JointLinks::at(s, f)];
-  }
-  const auto add = [&](Index slot, int face, double stiffness) {
-    if (slot < mesh.num_own_slots) {
-      sums.own[static_cast<std::size_t>(slot)][static_cast<std::size_t>(face)] += stiffness;
-      return;
-    }
-    for (const int corner : kFaceCorners[static_cast<std::size_t>(face)])
-      sums.shared[static_cast<std::size_t>(mesh.corner_node(slot, corner) - mesh.num_own_nodes())] += stiffness;
-  };
-  for (const JointStiffness& joint : model.joints) {
-    add(joint.slot_a, joint.face_a, joint.stiffness);
-    add(joint.slot_b, joint.code / 3, joint.stiffness);
-  }
-  return sums;
-}
-
-void add_joint_share(const StepModel& model, Index slot, const JointSums& sums, StepShare& share) {
-  share.by_face = slot < model.mesh.num_own_slots;
-  if (share.by_face) {
-    const double mass = model.mesh.node_mass[static_cast<std::size_t>(own_corner_node(slot, 0))];
-    for (std::size_t f = 0; f < 4; ++f) share.joint[f] = 2.0 * sums.own[static_cast<std::size_t>(slot)][f] / mass;
-    return;
-  }
-  for (int c = 0; c < 4; ++c) {
-    const Index node = model.mesh.corner_node(slot, c);
-    const double k = sums.shared[static_cast<std::size_t>(node - model.mesh.num_own_nodes())];
-    share.joint[static_cast<std::size_t>(c)] = 2.0 * k / model.mesh.node_mass[static_cast<std::size_t>(node)];
-  }
-}
-
-/// Replaces omega_e^2 of shared-node elements by the mean around each of their nodes, damping by the largest.
-void average_over_shared_nodes(const StepModel& model, std::vector<StepShare>& shares) {
-  const LocalMesh& mesh = model.mesh;
-  if (mesh.num_own_slots == mesh.num_slots) return;
-  const auto first = static_cast<std::size_t>(mesh.num_own_nodes());
-  struct Sum {
-    double mass = 0, stiff = 0, damping = 0;
-  };
-  std::vector<Sum> sums(static_cast<std::size_t>(mesh.num_nodes) - first);
-  const auto real = [&](Index s) { return mesh.element_of_slot[static_cast<std::size_t>(s)] >= 0; };
-  for (Index s = mesh.num_own_slots; s < mesh.num_slots; ++s) {
-    if (!real(s)) continue;
-    const auto i = static_cast<std::size_t>(s);
-    const double mass = 0.25 * model.density[static_cast<std::size_t>(mesh.block_group[i / kLanes])] * mesh.volume[i];
-    for (int c = 0; c < 4; ++c) {
-      Sum& sum = sums[static_cast<std::size_t>(mesh.corner_node(s, c)) - first];
-      sum.mass += mass;
-      sum.stiff += mass * shares[i].element[0];
-      sum.damping += mass * shares[i].damping;
-    }
-  }
-  for (Index s = mesh.num_own_slots; s < mesh.num_slots; ++s) {
-    if (!real(s)) continue;
-    StepShare& mine = shares[static_cast<std::size_t>(s)];
-    mine.damping = 0;
-    for (int c = 0; c < 4; ++c) {
-      const Sum& sum = sums[static_cast<std::size_t>(mesh.corner_node(s, c)) - first];
-      mine.element[static_cast<std::size_t>(c)] = sum.stiff / sum.mass;
-      mine.damping = std::max(mine.damping, sum.damping / sum.mass);
-    }
-  }
 }
 
 GlobalId neighbour_across(const StepModel& model, Index slot, int face) {
@@ -188,6 +70,8 @@ double stiffest_ratio(std::span<const ElasticParams> params) {
 
 }  // namespace
 
+double viscous_ratio(const ElasticParams& p) { return 2.0 * p.viscosity / (p.lambda + 2.0 * p.mu); }
+
 double StepShare::joint_at(int corner, unsigned open) const {
   if (!by_face) return joint[static_cast<std::size_t>(corner)];
   double sum = 0;
@@ -208,17 +92,11 @@ double StepShare::largest() const {
 }
 
 std::vector<StepShare> step_shares(const StepModel& model, const Field<double>& position) {
-  const LocalMesh& mesh = model.mesh;
-  const JointSums sums = joint_sums(model);
-  std::vector<StepShare> shares(static_cast<std::size_t>(mesh.num_slots));
-  for (Index s = 0; s < mesh.num_slots; ++s) {
-    if (mesh.element_of_slot[static_cast<std::size_t>(s)] < 0) continue;
-    StepShare& mine = shares[static_cast<std::size_t>(s)];
-    mine.element.fill(element_share(model, s, position));
-    mine.damping = mine.element[0] * viscous_ratio(params_of(model, s));
-    add_joint_share(model, s, sums, mine);
-  }
-  average_over_shared_nodes(model, shares);
+  ElementShares elements(model);
+  elements.update(model, position);
+  std::vector<StepShare> shares;
+  shares.reserve(static_cast<std::size_t>(model.mesh.num_slots));
+  for (Index s = 0; s < model.mesh.num_slots; ++s) shares.push_back(elements.of(model, s));
   return shares;
 }
 

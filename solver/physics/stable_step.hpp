@@ -37,9 +37,12 @@ struct StepModel {
   double local_damping = 0;  ///< beta
 };
 
+/// Ratio of viscous to elastic stiffness of pressure waves, s.
+[[nodiscard]] double viscous_ratio(const ElasticParams& params);
+
 enum class StepLimit { element, joint, contact };
 
-/// What contact adds to the corners of an element (contact/contact_step.hpp).
+/// What contact adds to the corners of an element (contact/step/contact_step.hpp).
 struct ContactShare {
   std::array<double, 4> omega_squared{};  ///< 1/s2
   int face = -1;                          ///< that brings the largest
@@ -90,7 +93,7 @@ struct StepShare {
 ///   Drucker-Prager: omega_e^2 = (4/rho) drucker_prager_stiffness (likewise).
 /// - joints: omega_j^2 = 2 max_i (sum over the joints at node i of k A0/3) / m_i, for all kinds of
 ///   points; for shared nodes over all elements around a node
-/// - contact: contact/contact_step.hpp
+/// - contact: contact/step/contact_step.hpp
 ///
 /// Local damping multiplies every force that decelerates a node by 1 + beta, and so omega^2 and c.
 ///

@@ -17,6 +17,7 @@ constexpr std::int64_t kShortestInterval = 10;  // steps, after releases of join
 constexpr std::int64_t kContactDelay = 2;       // steps until contact has the faces of a joint that was released
 constexpr double kGrowth = 1.5;             // of the step at an evaluation: motions of a step predict those of the next
 constexpr std::int64_t kGrowthDelay = 300;  // steps, see the class comment
+constexpr double kDown = 0.99, kUp = 1.2;   // of the step: changes between are not made
 constexpr double kMostTenths = 300;         // of the step at rest; limit of the reported number
 
 /// How many times a step has come below a tenth of that at rest: 0 above a tenth, 1 above a hundredth, and so on.
@@ -72,12 +73,12 @@ double StageSteps::length(double allowed) const {
   return left / std::max(1.0, std::ceil(left / allowed * (1.0 - 1e-9)));
 }
 
-double StageSteps::allowed() {
+double StageSteps::allowed(const StepRange& range) {
   const std::int64_t growth_steps = schedule_.growth_steps + schedule_.since;
   schedule_ = {.until = kEvaluationInterval};
   if (input_.time.step > 0) return input_.time.step;
   const Clock& clock = partition_.state().clock;
-  const double now = partition_.step_length(steps_to_look());
+  const double now = partition_.step_length(steps_to_look(), range);
   check_collapse(now);
   const double stable = input_.time.safety * now, most = kGrowth * clock.dt;
   if (clock.steps == 0 || stable <= most) return stable;
@@ -127,9 +128,18 @@ void StageSteps::look() {
 }
 
 void StageSteps::adjust() {
-  const double most = allowed(), now = partition_.state().clock.dt;
+  const double most = allowed(unchanged()), now = partition_.state().clock.dt;
   // By more than 1 % down or 20 % up: a length that is kept leaves the limit a margin, and fits the end of the stage.
-  if (most < 0.99 * now || length(most) > 1.2 * now) partition_.domain().state.clock.dt = length(most);
+  if (most < kDown * now || length(most) > kUp * now) partition_.domain().state.clock.dt = length(most);
+}
+
+StepRange StageSteps::unchanged() const {
+  constexpr double kRounding = 1e-6;
+  const double dt = partition_.state().clock.dt, now = dt / input_.time.safety;
+  const StepRange range{(kDown + kRounding) * now, (kUp - kRounding) * now};
+  const double lowest = range.low / at_rest_;
+  const bool warns = tenths(lowest) > tenths(dt / (input_.time.safety * at_rest_));
+  return warns || lowest < kSmallestStep ? StepRange{} : range;
 }
 
 void StageSteps::prepare_next() {

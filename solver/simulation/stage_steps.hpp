@@ -62,7 +62,10 @@ class StageSteps {
   /// Refuses a stage of more steps than can be counted.
   void demand_countable() const;
   /// The length that is allowed now, s; schedules the next evaluation. Collective.
-  [[nodiscard]] double allowed();
+  /// @param range  stable steps that all lead to the present length, s: which of them it is need not be found
+  [[nodiscard]] double allowed(const StepRange& range = {});
+  /// Stable steps with which adjust() changes nothing, and warns of nothing; none: {0, 0}.
+  [[nodiscard]] StepRange unchanged() const;
   /// At an evaluation. Collective. Throws SimulationError as look().
   void adjust();
   /// Where one step is left of the stage: divides it, if the next stage has a shorter one. Collective.

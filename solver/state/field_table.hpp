@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "base/types.hpp"
+#include "physics/contact/history.hpp"
 #include "physics/joint_history.hpp"
 
 namespace breccia {
@@ -53,8 +54,8 @@ inline void for_each_field(Record& record, Visit&& visit) {
              FieldTable<std::remove_const_t<Record>>::rows);
 }
 
-/// Calls f(scalar) for every number of a field: components, elements of arrays, members of a joint point in the order
-/// of their list. Scalars are doubles, integers, bools and enumerations.
+/// Calls f(scalar) for every number of a field: components, elements of arrays, members of a history in the order of
+/// its list. Scalars are doubles, integers, bools and enumerations.
 template <class T, class F>
 inline void for_each_scalar(T& field, F&& f) {
   using Plain = std::remove_const_t<T>;
@@ -66,6 +67,8 @@ inline void for_each_scalar(T& field, F&& f) {
     const auto number = [&](const JointNumber&, auto& value) { f(value); };
     for (auto& point : field.points) for_each_number(number, point);
     for_each_common_number(number, field);
+  } else if constexpr (std::is_same_v<Plain, PairHistory<double>>) {
+    for_each_pair_number([&](const PairNumber&, auto& value) { f(value); }, field);
   } else {
     for (auto& entry : field) for_each_scalar(entry, f);
   }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/model.hpp"
-#include "physics/contact/contact_state.hpp"
+#include "physics/contact/state.hpp"
 #include "physics/joint_forces.hpp"
 #include "state/element_fields.hpp"
 #include "state/field_table.hpp"
@@ -120,18 +120,7 @@ struct FieldTable<CoupleRecord> {
       FieldRow{"element", "1", kState, [](auto& r) -> auto& { return r.element; }},
       FieldRow{"contactor", "1", kState, [](auto& r) -> auto& { return r.contactor; }},
       FieldRow{"point", "1", kState, [](auto& r) -> auto& { return r.point; }},
-      FieldRow{"overlap", "1", kState, [](auto& r) -> auto& { return r.couple.d; }},
-      FieldRow{"largest_overlap", "1", kState, [](auto& r) -> auto& { return r.couple.d_max; }},
-      FieldRow{"offset", "m", kState, [](auto& r) -> auto& { return r.couple.offset; }},
-      FieldRow{"spring", "m", kState, [](auto& r) -> auto& { return r.couple.spring; }},
-      FieldRow{"friction", "N", kState, [](auto& r) -> auto& { return r.couple.friction; }},
-      FieldRow{"delayed_force", "N", kState, [](auto& r) -> auto& { return r.couple.delayed.force; }},
-      FieldRow{"age", "s", kState, [](auto& r) -> auto& { return r.couple.delayed.age; }},
-      FieldRow{"delayed_force_halfway", "N", kState, [](auto& r) -> auto& { return r.couple.delayed.halfway; }},
-      FieldRow{"force", "N", kState, [](auto& r) -> auto& { return r.couple.force; }},
-      FieldRow{"balance", "1", kState, [](auto& r) -> auto& { return r.couple.balance; }},
-      FieldRow{"gained", "J", kState, [](auto& r) -> auto& { return r.couple.gained; }},
-      FieldRow{"gained_before", "J", kState, [](auto& r) -> auto& { return r.couple.gained_before; }},
+      FieldRow{"history", "see contact/history.hpp", kState, [](auto& r) -> auto& { return r.couple.history; }},
   };
 // clang-format on
 }

@@ -8,8 +8,8 @@
 
 #include "discretisation/nodal_state.hpp"
 #include "model/stage_loads.hpp"
-#include "physics/contact/contact_forces.hpp"
-#include "physics/contact/contact_state.hpp"
+#include "physics/contact/forces.hpp"
+#include "physics/contact/state.hpp"
 #include "physics/joint_forces.hpp"
 #include "state/element_fields.hpp"
 #include "state/field_table.hpp"

@@ -40,19 +40,23 @@ source_lines() {
     done
 }
 
-# The tree without anything of ours, made once.
+# The tree without anything of ours, made once, also where two trials begin at the same time.
 base=${XDG_CACHE_HOME:-$HOME/.cache}/breccia/bare/$release-$(dpkg --print-architecture).tar
+mkdir -p "$(dirname "$base")"
+exec {lock}>"$base.lock"
+flock "$lock"
 if [[ ! -f $base ]]; then
   echo "bare: making a Debian tree ($release), kept in $base"
-  mkdir -p "$(dirname "$base")"
   sources=$(source_lines "$release")
   [[ -n $sources ]] || fail "apt names no place from which Debian's packages come"
   mmdebstrap --quiet --variant=minbase "$release" "${base%.tar}.part.tar" - <<<"$sources" || fail "mmdebstrap cannot make a tree of $release"
   mv "${base%.tar}.part.tar" "$base"
 fi
+exec {lock}>&-
 
 tree=$(mktemp -d "${TMPDIR:-/var/tmp}/breccia-bare.XXXXXX")
 out=$repository/runs/bare/$release
+[[ $depth != package ]] || out+=-package
 leave() {
   umount -R "$tree/dev" "$tree/proc" "$tree/sys" 2>/dev/null || true
   # What is mounted from this machine must never be removed with the tree: that would be of one file system.

@@ -82,7 +82,8 @@ class Curves : public testing::Test {
 TEST_F(Curves, BearTheWeightOfWhatLiesOnThemTheSameOnAnyNumberOfRanks) {
   for (const int ranks : {1, 3}) {
     const std::string run = "run_" + std::to_string(ranks);
-    const Outcome outcome = call_ranks(ranks, "run " + beam_ + " --progress none -o " + quoted(run));
+    const Outcome outcome =
+        call_ranks(ranks, "run " + beam_ + " --progress none --set stage[0].end=40ms -o " + quoted(run));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(hash(run), hash("run_1"));
   }

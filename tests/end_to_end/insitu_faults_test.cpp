@@ -50,11 +50,11 @@ TEST_P(InSituFaults, ADisplayThatDiesInTheMiddleOfAPictureCostsTheRunItsPictures
 }
 
 TEST_P(InSituFaults, AScriptThatNeverEndsIsInterruptedAndSwitchedOffAndTheRunGoesOn) {
-  const FaultyRun plain(1, ""), run(GetParam(), script("loops.py"), "--set 'domains.patience=\"20 s\"'");
+  const FaultyRun plain(1, ""), run(GetParam(), script("loops.py"), "--set 'domains.patience=\"12 s\"'");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_EQ(run.hash(), plain.hash());
   EXPECT_TRUE(
-      run.tells("loops.py: KeyboardInterrupt: interrupted: it has taken more than 20 s (domains.patience) "
+      run.tells("loops.py: KeyboardInterrupt: interrupted: it has taken more than 12 s (domains.patience) "
                 "(loops.py:"))
       << run.outcome.err;
   EXPECT_EQ(std::count(run.outcome.err.begin(), run.outcome.err.end(), '\n'), 2) << run.outcome.err;

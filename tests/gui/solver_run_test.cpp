@@ -117,7 +117,7 @@ QString hash_of(const QString& folder) {
 TEST(SolverRun, AStoppedRunGoesOnUnderAnotherNumberOfRanksToTheBitsOfTheUndisturbedOne) {
   const QTemporaryDir scratch;
   QString error;
-  const QString file = long_case(scratch, "3 ms");
+  const QString file = long_case(scratch, "2 ms");
   const std::unique_ptr<SolverRun> whole(
       SolverRun::start(kLaunch, file, scratch.filePath("runs/whole"), 1, &error, nullptr));
   ASSERT_NE(whole, nullptr) << error.toStdString();

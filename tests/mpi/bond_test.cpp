@@ -33,7 +33,7 @@ penalty = "10 GPa"
 [joints]
 broken = ["notch"]
 [[stage]]
-end = "1 ms"
+end = "0.6 ms"
 [[stage.constraint]]
 group = "end_upper"
 velocity = { y = { ramp = { to = "1 m/s", end = "0.2 ms" } } }

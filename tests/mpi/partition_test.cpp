@@ -110,6 +110,29 @@ TEST_F(PartitionOfCubes, FindsTheLengthOfTheStableStepAloneAsWell) {
   EXPECT_GT(world().sum(partition.state().joints.broken), 0);
 }
 
+TEST_F(PartitionOfCubes, FindsNoMoreThanThatTheStepLiesInTheGivenRangeAndOnlyWhereItDoes) {
+  constexpr double kSteps = 100;
+  Partition partition = begun();
+  int spared = 0;
+  for (int evaluations = 0; evaluations < 5; ++evaluations) {
+    const double exact = partition.step_length(kSteps);
+    for (const double low : {0.1, 0.5, 0.9, 0.999, 1.001, 1.1}) {
+      for (const double high : {0.99, 0.999, 1.0, 1.001, 1.1, 2.0}) {
+        if (low > high) continue;
+        const StepRange range{low * exact, high * exact};
+        const double found = partition.step_length(kSteps, range);
+        if (found == exact) continue;
+        ++spared;
+        EXPECT_EQ(found, range.low);
+        EXPECT_LE(range.low, exact);
+        EXPECT_GE(range.high, exact);
+      }
+    }
+    take_steps(partition, 80);
+  }
+  EXPECT_GT(spared, 0);
+}
+
 TEST_F(PartitionOfCubes, TakesTheStepsOfARankThatIsAlone) {
   constexpr int kSteps = 400;
   Partition partition = begun();

@@ -40,7 +40,7 @@ TEST(Ranks, GiveTheSameBitsWhileBoxesBreakRubAndAreHeld) {
 
 TEST(Ranks, GiveTheSameBitsWhenTheModelIsDividedAgainAndAgain) {
   const Scratch scratch;
-  SameBits boxes(scratch.write("case.toml", test::changed("end = \"4 ms\"", "end = \"10 ms\"")));
+  SameBits boxes(scratch.write("case.toml", test::changed("end = \"4 ms\"", "end = \"6 ms\"")));
   EXPECT_GT(boxes.on(2, "--set domains.margin=0.1").at("decompositions"), 5);
   EXPECT_GT(boxes.on(3, "--set domains.margin=0.1").at("decompositions"), 5);
   EXPECT_GT(boxes.on(4, "--set domains.margin=0.1 --set detection.algorithm=ms").at("decompositions"), 5);
@@ -124,9 +124,9 @@ TEST(Ranks, GiveTheSameBitsForElementsThatShareNodesUnderGravityAndDamping) {
   bar.on(3);
 }
 
-/// The small case for 10 ms, in which it is divided again and again, with one thing changed.
+/// The small case for 6 ms, in which it is divided again and again, with one thing changed.
 std::string longer(const std::string& from, const std::string& to) {
-  std::string text = test::changed("end = \"4 ms\"", "end = \"10 ms\"");
+  std::string text = test::changed("end = \"4 ms\"", "end = \"6 ms\"");
   return text.replace(text.find(from), from.size(), to);
 }
 
@@ -165,7 +165,7 @@ TEST(Ranks, GiveTheSameBitsWithTheLawOfGreenAndStVenant) {
   const nlohmann::json summary =
       same_bits_of_migrants(longer("poisson = 0.3", "poisson = 0.3\nlaw = \"green_st_venant\""));
   const Scratch scratch;
-  const SameBits default_law(scratch.write("case.toml", test::changed("end = \"4 ms\"", "end = \"10 ms\"")));
+  const SameBits default_law(scratch.write("case.toml", test::changed("end = \"4 ms\"", "end = \"6 ms\"")));
   EXPECT_NE(summary.at("state_hash"), default_law.alone().at("state_hash")) << "the law has done nothing";
 }
 
@@ -201,7 +201,7 @@ TEST(Ranks, KeepTheWorkOfConstraintsWhenElementsMoveFromRankToRankAndStagesEnd) 
   const std::string output = "[output]";
   text.replace(text.find(output), output.size(), R"([[stage]]
 name = "let go"
-end = "12 ms"
+end = "8 ms"
 [output])");
   const nlohmann::json summary = same_bits_of_migrants(text);
   const nlohmann::json& energy = summary.at("energy");

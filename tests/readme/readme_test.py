@@ -23,6 +23,9 @@ EXAMPLES = {
     "README.md": ("## A first case", "meshes/notched_bar/case.toml"),
     "solver/manual/guide/01-first-run.md": ("## A complete case", "meshes/block_wall/case.toml"),
 }
+# What takes as long as all other commands of a page together, and is the same on each -> the page for which it is typed;
+# for others it is looked up.
+TYPED_FOR = {"./run insitu": "catalyst/README.md"}
 
 
 def check_presets(scratch, plan):
@@ -99,8 +102,9 @@ class OfReadme(unittest.TestCase):
         print(f"\n{self.readme}")
         for command in commands_of(self.markdown):
             with self.subTest(f"{self.readme}:{command.line}: {command.text}"):
+                only_look_up = self.only_look_up or TYPED_FOR.get(command.text, self.readme) != self.readme
                 try:
-                    plan = plan_of(command, self.only_look_up)
+                    plan = plan_of(command, only_look_up)
                 except Problem as problem:
                     wrong = str(problem)
                 else:
@@ -112,7 +116,7 @@ class OfReadme(unittest.TestCase):
         self.assertEqual(unmarked_commands(self.markdown), [])
 
     def test_links_lead_to_files(self):
-        self.assertEqual(broken_links(self.repository / self.readme), [])
+        self.assertEqual("\n".join(broken_links(self.repository / self.readme)), "")
 
     def test_the_example_is_the_case(self):
         heading, case = EXAMPLES[self.readme]

@@ -45,7 +45,8 @@ struct NumberOf {
     if constexpr (std::is_arithmetic_v<std::remove_const_t<T>> || std::is_enum_v<std::remove_const_t<T>>) {
       return Stored<T>{};
     } else if constexpr (std::is_same_v<std::remove_const_t<T>, Vec3> ||
-                         std::is_same_v<std::remove_const_t<T>, JointHistory<double>>) {
+                         std::is_same_v<std::remove_const_t<T>, JointHistory<double>> ||
+                         std::is_same_v<std::remove_const_t<T>, PairHistory<double>>) {
       return double{};
     } else {
       return first(field[0]);
@@ -70,7 +71,7 @@ std::vector<Part> parts_of_numbers() {
   return parts;
 }
 
-std::vector<Part> parts_of_history() {
+std::vector<Part> parts_of_joint_history() {
   std::vector<Part> parts;
   JointHistory<double> history;
   std::size_t next = 0;
@@ -91,12 +92,27 @@ std::vector<Part> parts_of_history() {
   return parts;
 }
 
+std::vector<Part> parts_of_pair_history() {
+  std::vector<Part> parts;
+  PairHistory<double> history;
+  std::size_t next = 0;
+  for_each_pair_number(
+      [&](const PairNumber& number, auto&) {
+        if (parts.empty() || parts.back().name != number.name)
+          parts.push_back({std::string(number.name), std::string(number.unit), {}});
+        parts.back().places.push_back(next++);
+      },
+      history);
+  return parts;
+}
+
 template <class Record, class Row>
 std::vector<Part> parts_of(const Row& row) {
   const Record record{};
   using Field = std::decay_t<decltype(row.access(record))>;
   if constexpr (std::is_same_v<Field, ElementNumbers>) return parts_of_numbers();
-  if constexpr (std::is_same_v<Field, JointHistory<double>>) return parts_of_history();
+  if constexpr (std::is_same_v<Field, JointHistory<double>>) return parts_of_joint_history();
+  if constexpr (std::is_same_v<Field, PairHistory<double>>) return parts_of_pair_history();
   Part all{row.name, row.unit, {}};
   for_each_scalar(row.access(record), [&](const auto&) { all.places.push_back(all.places.size()); });
   return {all};

@@ -4,8 +4,8 @@
 #include "discretisation/local_mesh.hpp"
 #include "discretisation/nodal_forces.hpp"
 #include "discretisation/nodal_state.hpp"
-#include "physics/contact/contact_params.hpp"
-#include "physics/contact/contact_state.hpp"
+#include "physics/contact/params.hpp"
+#include "physics/contact/state.hpp"
 
 namespace breccia {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact/contact_search.hpp"
-#include "physics/contact/contact_forces.hpp"
+#include "physics/contact/forces.hpp"
 #include "unit/physics/contact/scene.hpp"
 
 /// Boxes that may break, with their contact, for the tests of contact/.

@@ -7,7 +7,7 @@
 
 #include "contact/contact_search.hpp"
 #include "contact/search_params.hpp"
-#include "physics/contact/contact_forces.hpp"
+#include "physics/contact/forces.hpp"
 #include "support/raster_case.hpp"
 #include "unit/case/case_files.hpp"
 

@@ -128,8 +128,8 @@ TEST_F(TouchingCubes, ShowAContactForEachElementThatAPointTouchesWithAnIdOfItsOw
     TouchingCouple couple{};
     couple.point = 0;
     couple.contactor = contactor;
-    couple.force = Vec3(1, 0.5, 0);
-    couple.friction = Vec3(0, 0.5, 0);
+    couple.history.force = Vec3(1, 0.5, 0);
+    couple.history.friction = Vec3(0, 0.5, 0);
     contact.touching.push_back(couple);
   }
   const FrameParts parts{.elements = false, .joints = false, .contacts = true, .surface = false, .domain = false};

@@ -1,4 +1,4 @@
-#include "physics/contact/contact_balance.hpp"
+#include "physics/contact/correction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -161,7 +161,7 @@ Pressed press_on_a_plateau(double omega, double share, double exponent) {
     const double energy = 0.5 * mass * v * before + kept.stored.value() + kept.dissipated.value();
     found.gained = std::max(found.gained, (energy - work) / scale);
     for (const TouchingCouple& couple : press.scene.contact.touching)
-      found.deepest = std::max(found.deepest, couple.d / begins);
+      found.deepest = std::max(found.deepest, couple.history.d / begins);
   }
   return found;
 }
@@ -201,12 +201,12 @@ TEST(ContactBalance, OfASteepUnloadingCurveIsNoLargerOnTheWayInThanOfALine) {
   constexpr double motion = 0.004;  // m
   press.move(-motion);
   ASSERT_EQ(press.scene.contact.touching.size(), 1U);
-  press.scene.contact.touching.front().gained_before = 10;  // J, more than a step can take back
+  press.scene.contact.touching.front().history.gained_before = 10;  // J, more than a step can take back
   press.move(-motion);
   const TouchingCouple& couple = press.scene.contact.touching.front();
-  const double depth = couple.d * press.scene.contact.body_length[0];
-  EXPECT_GT(couple.balance, 0) << "takes back what is left";
-  EXPECT_LT(couple.balance, (1 + 1e-9) * kLargestWorkError * motion / depth);
+  const double depth = couple.history.d * press.scene.contact.body_length[0];
+  EXPECT_GT(couple.history.balance, 0) << "takes back what is left";
+  EXPECT_LT(couple.history.balance, (1 + 1e-9) * kLargestWorkError * motion / depth);
 }
 
 TEST(ContactBalance, APointThatComesBackWhileItsClosingForceLastsIsAsDeepAsItLies) {
@@ -214,13 +214,13 @@ TEST(ContactBalance, APointThatComesBackWhileItsClosingForceLastsIsAsDeepAsItLie
   press.move(-0.003);
   press.move(0.005);
   ASSERT_EQ(press.scene.contact.touching.size(), 1U);
-  ASSERT_EQ(press.scene.contact.touching.front().d, 0);
-  ASSERT_NE(press.scene.contact.touching.front().force, Vec3(Vec3::Zero())) << "no closing force";
+  ASSERT_EQ(press.scene.contact.touching.front().history.d, 0);
+  ASSERT_NE(press.scene.contact.touching.front().history.force, Vec3(Vec3::Zero())) << "no closing force";
   press.move(-0.006);
   ASSERT_EQ(press.scene.contact.touching.size(), 1U);
   const TouchingCouple& couple = press.scene.contact.touching.front();
-  EXPECT_NEAR(couple.d_max * press.scene.contact.body_length[0], 0.004, 1e-9) << "not by all it has moved";
-  EXPECT_EQ(couple.d, couple.d_max);
+  EXPECT_NEAR(couple.history.d_max * press.scene.contact.body_length[0], 0.004, 1e-9) << "not by all it has moved";
+  EXPECT_EQ(couple.history.d, couple.history.d_max);
   EXPECT_EQ(press.dissipated(), 0) << "by an elastic law";
 }
 

@@ -200,12 +200,12 @@ TEST(CouplesOfFracture, StartWithoutForceAndNeverPull) {
   };
   EXPECT_EQ(put(0.9), 0) << "seen for the first time deep inside";
   ASSERT_EQ(scene.contact.touching.size(), 1u);
-  const double offset = scene.contact.touching[0].offset;
+  const double offset = scene.contact.touching[0].history.offset;
   EXPECT_GT(offset, 0);
   const double pressed = put(1.0);
   EXPECT_GT(pressed, 0);
   EXPECT_EQ(put(0.85), 0) << "drawn out: no pull";
-  EXPECT_LT(scene.contact.touching.at(0).offset, offset) << "the offset follows the retreat";
+  EXPECT_LT(scene.contact.touching.at(0).history.offset, offset) << "the offset follows the retreat";
   EXPECT_GT(put(1.0), pressed) << "and the force grows from there";
 }
 
@@ -246,14 +246,14 @@ TEST(CouplesOfFracture, AreFreshForOneEvaluationOnly) {
   scene.contact.fresh = scene.contact.couples;
   scene.evaluate(1e-3);
   ASSERT_EQ(scene.contact.touching.size(), 1u);
-  EXPECT_NEAR(scene.contact.touching[0].offset, 0.03, 1e-12);
+  EXPECT_NEAR(scene.contact.touching[0].history.offset, 0.03, 1e-12);
   EXPECT_EQ(scene.work.stored.value(), 0);
   EXPECT_TRUE(scene.contact.fresh.empty());
   scene.shift(1, {0, 0, 0.2});
   scene.evaluate(1e-3);
   scene.shift(1, {0, 0, -0.2});
   scene.evaluate(1e-3);
-  EXPECT_EQ(scene.contact.touching.at(0).offset, 0) << "a later touch is a touch like any other";
+  EXPECT_EQ(scene.contact.touching.at(0).history.offset, 0) << "a later touch is a touch like any other";
 }
 
 }  // namespace

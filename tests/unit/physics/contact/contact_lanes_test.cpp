@@ -54,9 +54,11 @@ std::vector<double> shake(const ContactLaw& law, Way way) {
       for (const double f : scene.forces.get(n)) numbers.push_back(f);
     }
     for (const TouchingCouple& h : scene.contact.touching) {
-      numbers.insert(numbers.end(), {static_cast<double>(h.contactor), h.d, h.d_max, h.offset, h.balance, h.gained,
-                                     h.gained_before, h.delayed.force, h.delayed.age});
-      for (const Vec3& v : {h.spring, h.friction, h.force}) numbers.insert(numbers.end(), v.begin(), v.end());
+      numbers.insert(numbers.end(), {static_cast<double>(h.contactor), h.history.d, h.history.d_max, h.history.offset,
+                                     h.history.balance, h.history.gained, h.history.gained_before,
+                                     h.history.delayed.force, h.history.delayed.age});
+      for (const Vec3& v : {h.history.spring, h.history.friction, h.history.force})
+        numbers.insert(numbers.end(), v.begin(), v.end());
     }
     for (const ExactSum* sum :
          {&scene.work.stored, &scene.work.friction_stored, &scene.work.dissipated, &scene.work.friction_dissipated})

@@ -61,7 +61,7 @@ TEST(ContactDamping, OfAnOscillationAccountsWhatItTakes) {
     v += (force - weight) / mass;
     lost = first - 0.5 * mass * 0.25 * (v + before) * (v + before);
   }
-  const double deeper = press.scene.contact.touching.at(0).d * length - depth;
+  const double deeper = press.scene.contact.touching.at(0).history.d * length - depth;
   const double held = 0.5 * k * deeper * deeper;
   EXPECT_NEAR(press.dissipated() / (lost - held), 1.0, few_percent);
 }

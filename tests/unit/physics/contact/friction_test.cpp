@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "base/types.hpp"
-#include "physics/contact/friction.hpp"
+#include "physics/contact/law/coulomb.hpp"
 
 namespace breccia::friction_test {
 namespace {
@@ -148,7 +148,7 @@ TEST(Friction, OfContactsThatLiftOffAgainAndAgainHasTheImpulseOfCoulombsLaw) {
       rubbed += delayed.force;
       pressed += force;
     } else {
-      forget_normal_force(kStep, delayed);
+      delayed = without_overlap(kStep, delayed);
     }
   }
   EXPECT_NEAR(rubbed / pressed, 1, 0.005);
@@ -157,7 +157,7 @@ TEST(Friction, OfContactsThatLiftOffAgainAndAgainHasTheImpulseOfCoulombsLaw) {
 
 TEST(Friction, ForgetsAContactThatDoesNotComeAgain) {
   DelayedForce delayed{7, 3};
-  for (int i = 0; i < 10; ++i) forget_normal_force(0.31, delayed);
+  for (int i = 0; i < 10; ++i) delayed = without_overlap(0.31, delayed);
   EXPECT_EQ(delayed.force, 0);
   EXPECT_EQ(delayed.age, 0);
 }

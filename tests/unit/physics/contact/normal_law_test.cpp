@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "physics/contact/contact_law.hpp"
+#include "physics/contact/law/normal.hpp"
 
 namespace breccia::normal_law_test {
 namespace {

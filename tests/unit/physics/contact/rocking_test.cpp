@@ -48,7 +48,7 @@ struct Rocking {
       work += 0.5 * scene.forces.get(n).dot(load_node(scene.state.velocity.data(), n));
     done += work;
     for (const TouchingCouple& couple : scene.contact.touching)
-      largest_change = std::max(largest_change, std::abs(couple.balance));
+      largest_change = std::max(largest_change, std::abs(couple.history.balance));
   }
 };
 
@@ -63,7 +63,7 @@ TEST(Rocking, UnderAPointNeitherTakesNorGivesEnergy) {
   }
   EXPECT_EQ(rocking.press.dissipated(), 0);
   EXPECT_LT(rocking.largest_change, 1e-9) << "the force is that of the law";
-  EXPECT_EQ(rocking.press.scene.contact.touching.front().offset, 0);
+  EXPECT_EQ(rocking.press.scene.contact.touching.front().history.offset, 0);
   // After the first step the way is closed, a hundred times.
   EXPECT_NEAR(rocking.done + rocking.press.scene.work.stored.value(), held, 0.05 * held);
 }

@@ -15,9 +15,9 @@
 #include "mesh/quality.hpp"
 #include "mesh/raster.hpp"
 #include "mesh/topology.hpp"
-#include "physics/contact/contact_couples.hpp"
-#include "physics/contact/contact_field.hpp"
-#include "physics/contact/contact_forces.hpp"
+#include "physics/contact/couples.hpp"
+#include "physics/contact/geometry/field.hpp"
+#include "physics/contact/forces.hpp"
 
 /// Small models for the contact tests.
 namespace breccia::test {

@@ -59,7 +59,9 @@ Drag settled_drag(double depth) {
   return drag;
 }
 double longest_delay(const Drag& drag) { return 10 * drag.scene.contact.body_extent[1]; }
-double depth_of(const Drag& drag) { return drag.scene.contact.touching.front().d * drag.scene.contact.body_length[0]; }
+double depth_of(const Drag& drag) {
+  return drag.scene.contact.touching.front().history.d * drag.scene.contact.body_length[0];
+}
 
 TEST(Sliding, FrictionFollowsTheNormalForceLateByCrossingsOfTheSmallerBody) {
   Drag drag = settled_drag(0.02);
@@ -76,30 +78,30 @@ TEST(Sliding, FrictionGoesOnFromTheNormalForceBeforeAShortLift) {
   const double depth = depth_of(drag);
   DelayedForce before;
   double lifted = 0;
-  for (; drag.scene.contact.touching.front().d > 0; lifted += 0.002) {
-    before = drag.scene.contact.touching.front().delayed;
+  for (; drag.scene.contact.touching.front().history.d > 0; lifted += 0.002) {
+    before = drag.scene.contact.touching.front().history.delayed;
     drag.move({0, 0, 0.002});
   }
   for (int i = 0; i < 4; ++i) drag.move({0, 0, 5e-4});
   ASSERT_EQ(drag.scene.contact.touching.size(), 1U);
-  ASSERT_LT(drag.scene.contact.touching.front().force.norm(), 1e-9 * before.force);
-  drag.scene.contact.touching.front().force = Vec3::Zero();  // nothing is left but its history
-  ASSERT_EQ(drag.scene.contact.touching.front().d, 0);
-  EXPECT_EQ(drag.scene.contact.touching.front().delayed.force, before.force);
-  EXPECT_NEAR(drag.scene.contact.touching.front().delayed.age, before.age - 5, kRoundOff * before.age);
+  ASSERT_LT(drag.scene.contact.touching.front().history.force.norm(), 1e-9 * before.force);
+  drag.scene.contact.touching.front().history.force = Vec3::Zero();  // nothing is left but its history
+  ASSERT_EQ(drag.scene.contact.touching.front().history.d, 0);
+  EXPECT_EQ(drag.scene.contact.touching.front().history.delayed.force, before.force);
+  EXPECT_NEAR(drag.scene.contact.touching.front().history.delayed.age, before.age - 5, kRoundOff * before.age);
   const double force = drag.move({0, 0, -lifted - 0.002 - depth})[2];
   ASSERT_GT(force, 1.9 * before.force);
-  EXPECT_LT(drag.scene.contact.touching.front().delayed.force, 0.5 * (before.force + force));
+  EXPECT_LT(drag.scene.contact.touching.front().history.delayed.force, 0.5 * (before.force + force));
 }
 
 TEST(Sliding, FrictionForgetsTheNormalForceOfACoupleThatLiesWithoutForce) {
   Drag drag = settled_drag(0.02);
-  const double age = drag.scene.contact.touching.front().delayed.age;
-  drag.scene.contact.touching.front().offset = 1;  // m
+  const double age = drag.scene.contact.touching.front().history.delayed.age;
+  drag.scene.contact.touching.front().history.offset = 1;  // m
   drag.move({0, 0, 0});
   ASSERT_EQ(drag.scene.contact.touching.size(), 1U);
-  ASSERT_EQ(drag.scene.contact.touching.front().d, 0);
-  EXPECT_NEAR(drag.scene.contact.touching.front().delayed.age, age - 1, kRoundOff * age);
+  ASSERT_EQ(drag.scene.contact.touching.front().history.d, 0);
+  EXPECT_NEAR(drag.scene.contact.touching.front().history.delayed.age, age - 1, kRoundOff * age);
 }
 
 TEST(Sliding, APointThatIsDeepInsideAtOnceStartsWithoutForce) {
@@ -138,7 +140,7 @@ TEST(Sliding, HandsTheHistoryFromElementToElement) {
   for (int i = 0; i < 600; ++i) {
     const double force = drag.move({0.005, 0.0013, 0})[2];
     ASSERT_NEAR(force, unloaded, 1e-9 * unloaded) << "step " << i;
-    ASSERT_NEAR(drag.scene.contact.touching[0].d_max, 0.1 / h, kRoundOff / h);
+    ASSERT_NEAR(drag.scene.contact.touching[0].history.d_max, 0.1 / h, kRoundOff / h);
     hand_overs += drag.scene.contact.touching[0].contactor != first;
     first = drag.scene.contact.touching[0].contactor;
   }

@@ -1,0 +1,181 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+#include "base/types.hpp"
+#include "discretisation/local_mesh.hpp"
+#include "mesh/corner_sets.hpp"
+#include "physics/contact/geometry/tetra.hpp"
+#include "physics/contact/params.hpp"
+
+namespace breccia {
+
+/// Overlaps of this share of H and less that the mesh comes with are round-off: bodies touch there without force.
+inline constexpr double kOverlapTolerance = 1e-6;
+
+[[nodiscard]] inline PreparedTetra prepare(const std::array<Vec3, 4>& x, double reference_volume) {
+  return prepared_tetra<double>(x, reference_volume);
+}
+
+[[nodiscard]] inline bool inert(const PreparedTetra& tetra) { return !(tetra.gradient[0][0] == tetra.gradient[0][0]); }
+
+/// False for NaN.
+[[nodiscard]] inline bool inside(const std::array<double, 4>& lambda) {
+  return (lambda[0] >= -kInside) & (lambda[1] >= -kInside) & (lambda[2] >= -kInside) & (lambda[3] >= -kInside);
+}
+
+[[nodiscard]] inline double smallest(const std::array<double, 4>& lambda) {
+  return std::min(std::min(lambda[0], lambda[1]), std::min(lambda[2], lambda[3]));
+}
+
+/// g of one element is the least of some linear functions sum_a row[a] lambda_a, m. Each is the distance to one side of
+/// the surface, whose normal is along the gradient of the function, or of another one where `side_of` names it.
+struct OverlapShape {
+  std::array<std::array<double, 4>, kNumCornerSets> row;
+  SideRows side;                                    ///< those other functions
+  std::array<std::int8_t, kNumCornerSets> side_of;  ///< (rows) index into `side`, -1: the function itself
+  std::size_t rows = 0, sides = 0;
+  OverlapShape() = default;
+  OverlapShape(const OverlapShape& other) { *this = other; }
+  /// Of those in use alone: most shapes have one or two.
+  OverlapShape& operator=(const OverlapShape& other) {
+    rows = other.rows;
+    sides = other.sides;
+    std::copy_n(other.row.begin(), rows, row.begin());
+    std::copy_n(other.side_of.begin(), rows, side_of.begin());
+    std::copy_n(other.side.begin(), sides, side.begin());
+    return *this;
+  }
+  void add(const std::array<double, 4>& function) {
+    side_of[rows] = -1;
+    row[rows++] = function;
+  }
+  /// Of the last function; where it is zero the function itself decides. @pre fewer than kMostSides so far
+  void set_side(const std::array<double, 4>& function) {
+    if (function == std::array<double, 4>{}) return;
+    side_of[rows - 1] = static_cast<std::int8_t>(sides);
+    side[sides++] = function;
+  }
+};
+
+/// Overlap and its gradient with respect to the point; that with respect to corner a is -lambda_a gradient.
+struct Overlap {
+  double g = 0;            ///< m, > 0 inside
+  Vec3 gradient{0, 0, 0};  ///< -, points inwards
+};
+
+/// A function's value, m. @pre 0 <= k < rows
+[[nodiscard]] inline double row_value(const OverlapShape& shape, std::size_t k, const std::array<double, 4>& lambda) {
+  const std::array<double, 4>& row = shape.row[k];
+  return lambda[0] * row[0] + lambda[1] * row[1] + lambda[2] * row[2] + lambda[3] * row[3];
+}
+
+/// Gradient of a linear function of lambda with respect to the point. @param slope  its values at the corners
+[[nodiscard]] inline Vec3 gradient_of(const std::array<double, 4>& slope, const PreparedTetra& tetra) {
+  Vec3 gradient = Vec3::Zero();
+  for (std::size_t c = 1; c < 4; ++c) {
+    const std::array<double, 3>& row = tetra.gradient[c - 1];
+    gradient += (slope[c] - slope[0]) * Vec3(row[0], row[1], row[2]);
+  }
+  return gradient;
+}
+
+/// That of one of the functions, which is inwards. @pre 0 <= k < rows
+[[nodiscard]] inline Vec3 row_gradient(const OverlapShape& shape, std::size_t k, const PreparedTetra& tetra) {
+  return gradient_of(shape.row[k], tetra);
+}
+
+/// Against the normal of the side that a function belongs to, of any length. @pre 0 <= k < rows
+[[nodiscard]] inline Vec3 side_gradient(const OverlapShape& shape, std::size_t k, const PreparedTetra& tetra) {
+  const std::int8_t side = shape.side_of[k];
+  return gradient_of(side < 0 ? shape.row[k] : shape.side[static_cast<std::size_t>(side)], tetra);
+}
+
+/// Some of an element's functions: bit k for the k-th.
+using OverlapRows = std::uint32_t;
+inline constexpr OverlapRows kAllRows = ~OverlapRows{0};
+
+/// How much the sides of the surface face another face: by the cosine of the angle between their outward normals.
+enum class Facing : std::uint8_t {
+  away,
+  barely,  ///< at most -kBarelyFacing: sides of what is sharp and, on a block that bulges, those beside the loaded one
+  well     ///< at most -kWellFacing
+};
+/// Small, so that sharp edges are detected: a wedge on a flat face from an opening of 1.2 degrees on, two crossed
+/// ridges, whose sides face each other less, from 11.5 degrees on.
+inline constexpr double kBarelyFacing = 0.01;
+/// Sides of a body that is squeezed tilt by some degrees. Were they to count as well, points of the platens next to its
+/// edges would push it sideways: 0.08 % of the energy went there.
+inline constexpr double kWellFacing = 0.1;
+
+/// @param outward  normal of the face, of any length
+/// @param inward   against the normal of the side, of any length
+[[nodiscard]] inline Facing facing(const Vec3& outward, const Vec3& inward) {
+  const double along = outward.dot(inward), most = outward.norm() * inward.norm();
+  if (along >= kWellFacing * most) return Facing::well;
+  return along >= kBarelyFacing * most ? Facing::barely : Facing::away;
+}
+
+/// Of the depth of an element: a point that is so far behind a side has not just come through it.
+inline constexpr double kFarSide = 0.1;
+
+/// Some of an element's functions, and how their sides face.
+struct FacingRows {
+  OverlapRows rows = 0;
+  Facing facing = Facing::away;
+};
+
+/// The functions whose side of the surface faces a given face the most; none if all face away.
+/// @param outward  normal of the face, of any length
+[[nodiscard]] inline FacingRows rows_facing(const OverlapShape& shape, const PreparedTetra& tetra,
+                                            const Vec3& outward) {
+  FacingRows most;
+  for (std::size_t k = 0; k < shape.rows; ++k) {
+    const Facing here = facing(outward, side_gradient(shape, k, tetra));
+    if (here > most.facing) most = {.rows = 0, .facing = here};
+    if (here == most.facing && here != Facing::away) most.rows |= OverlapRows{1} << k;
+  }
+  return most;
+}
+
+/// The functions that apply to a point on a face, where sides are distinguished: those whose side faces it the most,
+/// through which the point enters, also just beside an edge, where another side is nearer; all where there is none. Not
+/// for elements at cracks, whose new sides would produce energy if they were distinguished.
+/// @param outward  as above
+[[nodiscard]] inline OverlapRows rows_for(const OverlapShape& shape, const PreparedTetra& tetra, const Vec3& outward) {
+  const FacingRows most = rows_facing(shape, tetra, outward);
+  return most.rows != 0 ? most.rows : kAllRows;
+}
+
+/// The function that is the least at lambda, of those in `rows`; of equal ones the first.
+[[nodiscard]] inline std::size_t least_row(const OverlapShape& shape, const std::array<double, 4>& lambda,
+                                           OverlapRows rows = kAllRows) {
+  auto least = static_cast<std::size_t>(std::countr_zero(rows));
+  for (std::size_t k = least + 1; k < shape.rows; ++k) {
+    if ((rows >> k & 1U) != 0 && row_value(shape, k, lambda) < row_value(shape, least, lambda)) least = k;
+  }
+  return least;
+}
+
+[[nodiscard]] inline double overlap_value(const OverlapShape& shape, const std::array<double, 4>& lambda,
+                                          OverlapRows rows = kAllRows) {
+  return row_value(shape, least_row(shape, lambda, rows), lambda);
+}
+
+[[nodiscard]] inline Overlap overlap(const OverlapShape& shape, const PreparedTetra& tetra,
+                                     const std::array<double, 4>& lambda, OverlapRows rows = kAllRows) {
+  const std::size_t least = least_row(shape, lambda, rows);
+  return {row_value(shape, least, lambda), row_gradient(shape, least, tetra)};
+}
+
+/// Corners of an element out of a nodal field.
+[[nodiscard]] inline std::array<Vec3, 4> load_corners(const LocalMesh& local, const double* field, Index slot) {
+  return {load_node(field, local.corner_node(slot, 0)), load_node(field, local.corner_node(slot, 1)),
+          load_node(field, local.corner_node(slot, 2)), load_node(field, local.corner_node(slot, 3))};
+}
+
+}  // namespace breccia

@@ -1,0 +1,9 @@
+#include "physics/frequency_kernel.hpp"
+
+namespace breccia {
+
+void frequency_block_avx512(const FrequencyGroup& group, const double* corners, const double* gradient, double* out) {
+  frequency_block(group, corners, gradient, out);
+}
+
+}  // namespace breccia
