@@ -34,12 +34,23 @@ struct Rule {
   void (*switch_off)(ContactParams& params);
 };
 
-/// What can be switched off. What a key of the case can switch off as well is done as the key would.
+/// What can be switched off. `fade_in` is the ramp of the field at freed faces, which a key of the case sets.
 constexpr auto kRules = std::to_array<Rule>({
-    {"friction_lag",
-     [](ContactParams& params) {
-       for (ContactLaw& law : params.laws) law.friction_delay = 0;
-     }},
+    {"correction", [](ContactParams& params) { params.rules.correction = false; }},
+    {"steep_correction", [](ContactParams& params) { params.rules.steep_correction = false; }},
+    {"closing_pull", [](ContactParams& params) { params.rules.closing_pull = false; }},
+    {"remembered_gain", [](ContactParams& params) { params.rules.remembered_gain = false; }},
+    {"gradient_switch", [](ContactParams& params) { params.rules.gradient_switch = false; }},
+    {"friction_lag", [](ContactParams& params) { params.rules.friction_lag_stages = 0; }},
+    {"second_lag_stage", [](ContactParams& params) { params.rules.friction_lag_stages = 1; }},
+    {"friction_age", [](ContactParams& params) { params.rules.friction_age = false; }},
+    {"spring_turns", [](ContactParams& params) { params.rules.spring_turns = false; }},
+    {"facing_sides", [](ContactParams& params) { params.rules.facing_sides = false; }},
+    {"prefer_facing_side", [](ContactParams& params) { params.rules.prefer_facing_side = false; }},
+    {"far_side", [](ContactParams& params) { params.rules.far_side = false; }},
+    {"bridge_gaps", [](ContactParams& params) { params.rules.bridge_gaps = false; }},
+    {"one_of_neighbours", [](ContactParams& params) { params.rules.one_of_neighbours = false; }},
+    {"first_offset", [](ContactParams& params) { params.rules.first_offset = false; }},
     {"fade_in", [](ContactParams& params) { params.ramp_steps = 1; }},
 });
 
