@@ -66,9 +66,10 @@ struct alignas(64) PairBlock {
 };
 
 using LocateKernel = void (*)(LocateBlock& block);
-/// All of eight elements but their forces. @param x, v  m, m/s, of their corners: [corner][axis][lane]
-/// @param volume  (kLanes) m3, at rest
-using PrepareKernel = void (*)(const double* x, const double* v, const double* volume, StepElement* elements);
+/// Places of eight elements. @param x  m, of their corners: [corner][axis][lane];  @param volume  (kLanes) m3, at rest
+using PrepareKernel = void (*)(const double* x, const double* volume, StepElement* elements);
+/// Velocities and curls of eight elements that are prepared. @param v  m/s, as x
+using ElementMotionKernel = void (*)(const double* v, StepElement* elements);
 /// Motion, gradient, turn and same_slope. @param dt  s
 using MotionKernel = void (*)(double dt, PairBlock& block);
 /// One step of all couples of the block (evaluate.hpp).
@@ -77,6 +78,7 @@ using EvaluateKernel = void (*)(double dt, const EvaluationRules& rules, PairBlo
 /// Compiled for one instruction set, or for one couple after the other. All give the same bits.
 struct ContactKernels {
   PrepareKernel prepare;
+  ElementMotionKernel move_elements;
   LocateKernel locate;
   MotionKernel move;
   EvaluateKernel evaluate;

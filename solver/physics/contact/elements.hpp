@@ -19,13 +19,15 @@ struct alignas(64) StepElement {
   double force[3][4];     ///< N, by axis on its corners, what acts beside contact included. Of elements with own nodes
 };
 
-/// Elements of a step by blocks of slots, each prepared when one of them is first needed. Kept for its storage.
+/// Elements of a step by blocks of slots. What a block holds is prepared when it is first needed: places in many, motions
+/// and forces in few. Kept for its storage.
 class StepElements {
  public:
   struct Block {
     std::array<StepElement, kLanes> elements;
-    Index index;                                  ///< of the block of slots
-    std::uint64_t prepared_in = 0, acted_in = 0;  ///< number of the step; when a force was last added
+    Index index;  ///< of the block of slots
+    /// Number of the step for which tetra, velocity and curl, force are up to date.
+    std::uint64_t prepared_in = 0, moved_in = 0, acted_in = 0;
   };
 
   StepElements() = default;
@@ -66,8 +68,8 @@ class StepElements {
     used_.push_back(block);
     return *block;
   }
-  void note_force(Block& block) const { block.acted_in = step_; }
-  /// Calls f(block) for all blocks of this step to which forces have been added.
+  [[nodiscard]] std::uint64_t step() const { return step_; }
+  /// Calls f(block) for all blocks whose forces are up to date.
   template <class F>
   void for_each_acted(F&& f) const {
     for (const Block* block : used_) {

@@ -92,33 +92,50 @@ struct Some {
   }
 };
 
+/// Numbers of some elements in a nodal field.
+template <class Real>
+[[nodiscard]] inline std::array<LaneVector<Real>, 4> corners_of(const double* field, std::size_t first) {
+  std::array<LaneVector<Real>, 4> corners;
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t i = 0; i < 3; ++i)
+      corners[c][i] = of_lanes<Real>([&](std::size_t l) { return field[(3 * c + i) * kLanes + first + l]; });
+  }
+  return corners;
+}
+
 /// Some elements.
 template <class Real>
-inline void prepare(const double* x, const double* v, const double* volume, StepElement* elements, std::size_t first) {
-  using Vector = LaneVector<Real>;
-  const auto load = [first](const double* row) {
-    return of_lanes<Real>([&](std::size_t l) { return row[first + l]; });
-  };
-  std::array<Vector, 4> corner, velocity;
-  for (std::size_t c = 0; c < 4; ++c) {
+inline void prepare(const double* x, const double* volume, StepElement* elements, std::size_t first) {
+  const Real at_rest = of_lanes<Real>([&](std::size_t l) { return volume[first + l]; });
+  const PreparedTetraOf<Real> tetra = prepared_tetra<Real>(corners_of<Real>(x, first), at_rest);
+  for (std::size_t l = 0; l < width<Real>(); ++l) {
+    PreparedTetra& to = elements[first + l].tetra;
     for (std::size_t i = 0; i < 3; ++i) {
-      corner[c][i] = load(x + (3 * c + i) * kLanes);
-      velocity[c][i] = load(v + (3 * c + i) * kLanes);
+      to.origin[i] = lane_of(tetra.origin[i], l);
+      for (std::size_t c = 0; c < 3; ++c) to.gradient[c][i] = lane_of(tetra.gradient[c][i], l);
     }
   }
-  const PreparedTetraOf<Real> tetra = prepared_tetra<Real>(corner, load(volume));
+}
+
+/// Motion of some elements.
+template <class Real>
+inline void move_elements(const double* v, StepElement* elements, std::size_t first) {
+  using Vector = LaneVector<Real>;
+  const std::array<Vector, 4> velocity = corners_of<Real>(v, first);
+  const auto gradient = [&](std::size_t c, std::size_t i) {
+    return of_lanes<Real>([&](std::size_t l) { return elements[first + l].tetra.gradient[c][i]; });
+  };
   Vector curl{Real(0.0), Real(0.0), Real(0.0)};
   for (std::size_t c = 1; c < 4; ++c) {
-    const std::array<Real, 3>& row = tetra.gradient[c - 1];
-    curl += Vector{row[0], row[1], row[2]}.cross(velocity[c] - velocity[0]);
+    const Vector row{gradient(c - 1, 0), gradient(c - 1, 1), gradient(c - 1, 2)};
+    curl += row.cross(velocity[c] - velocity[0]);
   }
-  const auto inert = !(tetra.gradient[0][0] == tetra.gradient[0][0]);
+  const Real any = gradient(0, 0);
+  const auto inert = !(any == any);
   for (std::size_t i = 0; i < 3; ++i) curl[i] = select(inert, Real(0.0), curl[i]);
   for (std::size_t l = 0; l < width<Real>(); ++l) {
     StepElement& element = elements[first + l];
     for (std::size_t i = 0; i < 3; ++i) {
-      element.tetra.origin[i] = lane_of(tetra.origin[i], l);
-      for (std::size_t c = 0; c < 3; ++c) element.tetra.gradient[c][i] = lane_of(tetra.gradient[c][i], l);
       for (std::size_t c = 0; c < 4; ++c) element.velocity[c][i] = v[(3 * c + i) * kLanes + first + l];
       element.curl[i] = lane_of(curl[i], l);
     }
@@ -228,8 +245,12 @@ inline void locate_block(LocateBlock& block) {
   for (std::size_t first = 0; first < kLanes; first += width<Real>()) locate<Real>(block, first);
 }
 template <class Real>
-inline void prepare_block(const double* x, const double* v, const double* volume, StepElement* elements) {
-  for (std::size_t first = 0; first < kLanes; first += width<Real>()) prepare<Real>(x, v, volume, elements, first);
+inline void prepare_block(const double* x, const double* volume, StepElement* elements) {
+  for (std::size_t first = 0; first < kLanes; first += width<Real>()) prepare<Real>(x, volume, elements, first);
+}
+template <class Real>
+inline void move_elements_block(const double* v, StepElement* elements) {
+  for (std::size_t first = 0; first < kLanes; first += width<Real>()) move_elements<Real>(v, elements, first);
 }
 template <class Real>
 inline void move_block(double dt, PairBlock& block) {
@@ -241,7 +262,7 @@ inline void evaluate_block(double dt, const EvaluationRules& rules, PairBlock& b
 }
 template <class Real>
 [[nodiscard]] inline ContactKernels contact_kernels() {
-  return {prepare_block<Real>, locate_block<Real>, move_block<Real>, evaluate_block<Real>};
+  return {prepare_block<Real>, move_elements_block<Real>, locate_block<Real>, move_block<Real>, evaluate_block<Real>};
 }
 
 }  // namespace

@@ -72,13 +72,13 @@ void PairQueue::add_force(const KnownForce& known) {
 
 void PairQueue::fill_place(const ContactPoint& point, const Candidate& candidate, std::size_t lane) {
   const std::array<double, 3>& shape = view_.shape_at(point);
-  const StepElement& target = view_.element(point.slot);
+  const StepElement& target = view_.moving_element(point.slot);
   for (std::size_t i = 0; i < 3; ++i) {
     block_.shape[i][lane] = shape[i];
     block_.velocity[i][lane] = target.velocity[kFaceCorners[at(point.face)][i]];
   }
   block_.target[lane] = &target;
-  block_.contactor[lane] = &view_.element(view_.slot_of(candidate.contactor));
+  block_.contactor[lane] = &view_.moving_element(view_.slot_of(candidate.contactor));
   for (std::size_t a = 0; a < 4; ++a) {
     block_.lambda[a][lane] = candidate.lambda[a];
     block_.depth[a][lane] = candidate.depth[a];

@@ -11,16 +11,6 @@ bool share_vertex(const LocalMesh& local, Index slot, Index other) {
 
 constexpr std::size_t kCorners = std::size_t{12} * kLanes;  // numbers of a block in a nodal field
 
-/// @param from  [corner][axis][lane], or null: nothing acts on them
-void load_forces(const double* from, StepElements::Block& block) {
-  for (std::size_t c = 0; c < 4; ++c) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t lane = 0; lane < kLanes; ++lane)
-        block.elements[lane].force[i][c] = from == nullptr ? 0.0 : from[(3 * c + i) * kLanes + lane];
-    }
-  }
-}
-
 }  // namespace
 
 ContactView::ContactView(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
@@ -65,31 +55,43 @@ Vec3 ContactView::outward_of(const ContactPoint& point, double dt) const {
   });
 }
 
-StepElements::Block& ContactView::prepare_block(Index slot) {
-  StepElements::Block& block = contact_.elements.prepare(slot);
-  StepElement* elements = block.elements.data();
-  const std::size_t first = at(block.index) * kCorners;
-  const double *x = state_.position.data(), *v = state_.velocity.data(),
-               *volume = local_.volume.data() + at(block.index) * kLanes;
-  if (slot < local_.num_own_slots) {
-    kernels_.prepare(x + first, v + first, volume, elements);
-    load_forces(forces_.block(block.index), block);
-    return block;
-  }
-  alignas(64) std::array<double, kCorners> corners{}, velocities{};
+const double* ContactView::corners_of(const StepElements::Block& block, const double* field,
+                                      std::span<double> room) const {
+  if (block.index < local_.num_own_blocks()) return field + at(block.index) * kCorners;
+  std::fill(room.begin(), room.end(), 0.0);
   for (Index lane = 0; lane < kLanes; ++lane) {
-    const Index here = block.index * kLanes + lane;
-    if (local_.element_of_slot[at(here)] < 0) continue;
+    const Index slot = block.index * kLanes + lane;
+    if (local_.element_of_slot[at(slot)] < 0) continue;
     for (int c = 0; c < 4; ++c) {
-      for (int i = 0; i < 3; ++i) {
-        const std::size_t from = nodal(local_.corner_node(here, c), i), to = at((3 * c + i) * kLanes + lane);
-        corners[to] = x[from];
-        velocities[to] = v[from];
-      }
+      for (int i = 0; i < 3; ++i) room[at((3 * c + i) * kLanes + lane)] = field[nodal(local_.corner_node(slot, c), i)];
     }
   }
-  kernels_.prepare(corners.data(), velocities.data(), volume, elements);
+  return room.data();
+}
+
+StepElements::Block& ContactView::prepare_block(Index slot) {
+  StepElements::Block& block = contact_.elements.prepare(slot);
+  alignas(64) std::array<double, kCorners> room;
+  kernels_.prepare(corners_of(block, state_.position.data(), room), local_.volume.data() + at(block.index) * kLanes,
+                   block.elements.data());
   return block;
+}
+
+void ContactView::prepare_motion(StepElements::Block& block) const {
+  block.moved_in = contact_.elements.step();
+  alignas(64) std::array<double, kCorners> room;
+  kernels_.move_elements(corners_of(block, state_.velocity.data(), room), block.elements.data());
+}
+
+void ContactView::prepare_forces(StepElements::Block& block) const {
+  block.acted_in = contact_.elements.step();
+  const double* from = forces_.block(block.index);
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane)
+        block.elements[lane].force[i][c] = from == nullptr ? 0.0 : from[(3 * c + i) * kLanes + lane];
+    }
+  }
 }
 
 void ContactView::add_force(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
@@ -119,7 +121,6 @@ void ContactView::add_force(const ContactPoint& point, Index contactor, const st
 
 void ContactView::store_forces() {
   contact_.elements.for_each_acted([&](const StepElements::Block& block) {
-    if (block.index >= local_.num_own_blocks()) return;
     double* to = forces_.acted_block(block.index);
     for (std::size_t c = 0; c < 4; ++c) {
       for (std::size_t i = 0; i < 3; ++i, to += kLanes) {

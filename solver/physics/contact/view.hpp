@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "base/exact_sum.hpp"
 #include "base/index.hpp"
@@ -69,8 +70,13 @@ class ContactView {
   /// Normal of a point's face. @param dt  s, by which the nodes are moved back
   [[nodiscard]] Vec3 outward_of(const ContactPoint& point, double dt = 0) const;
 
-  /// The element of a slot in this step, prepared on its first use.
-  [[nodiscard]] StepElement& element(Index slot) { return block_with(slot).elements[at(slot % kLanes)]; }
+  /// The element of a slot where it is now; and with its motion.
+  [[nodiscard]] const StepElement& element(Index slot) { return block_with(slot).elements[at(slot % kLanes)]; }
+  [[nodiscard]] const StepElement& moving_element(Index slot) {
+    StepElements::Block& block = block_with(slot);
+    if (block.moved_in != contact_.elements.step()) prepare_motion(block);
+    return block.elements[at(slot % kLanes)];
+  }
   /// Requests what the location of a couple will read.
   void prefetch(const AwakeCouple& couple) const {
     __builtin_prefetch(&contact_.points[at(couple.point)]);
@@ -109,9 +115,14 @@ class ContactView {
     return block != nullptr ? *block : prepare_block(slot);
   }
   StepElements::Block& prepare_block(Index slot);
+  void prepare_motion(StepElements::Block& block) const;
+  void prepare_forces(StepElements::Block& block) const;
+  /// Numbers of a block's corners in a nodal field, [corner][axis][lane]. @param room  for those of shared nodes
+  [[nodiscard]] const double* corners_of(const StepElements::Block& block, const double* field,
+                                         std::span<double> room) const;
   [[nodiscard]] StepElement& element_to_act_on(Index slot) {
     StepElements::Block& block = block_with(slot);
-    contact_.elements.note_force(block);
+    if (block.acted_in != contact_.elements.step()) prepare_forces(block);
     return block.elements[at(slot % kLanes)];
   }
 
