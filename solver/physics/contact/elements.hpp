@@ -19,8 +19,8 @@ struct alignas(64) StepElement {
   double force[3][4];     ///< N, by axis on its corners, what acts beside contact included. Of elements with own nodes
 };
 
-/// Elements of a step by blocks of slots. What a block holds is prepared when it is first needed: places in many, motions
-/// and forces in few. Kept for its storage.
+/// Elements of a step by blocks of slots. What a block stores is prepared when it is first needed: places in many,
+/// motions and forces in few. Kept for its storage.
 class StepElements {
  public:
   struct Block {
