@@ -79,7 +79,7 @@ class Race {
       driver.step(stop_requested);
       if (partition.state().signals.received.stop) return false;
       if (progress_.due())
-        progress_.tell(
+        progress_.show(
             {"on the way to the start", partition.state().clock.time / settings_.from, seconds_since(started)});
     }
     if (driver.over()) throw starts_too_late();
@@ -230,11 +230,11 @@ class Race {
   }
 
   void report_repetition(const SearchCandidate& candidate, std::int64_t steps) {
-    if (entries_.empty()) return progress_.tell({"warming up", 0, 0});
+    if (entries_.empty()) return progress_.show({"warming up", 0, 0});
     const double done =
         static_cast<double>(repetitions_) + static_cast<double>(steps) / static_cast<double>(result_.steps);
     const auto all = static_cast<double>(entries_.size() * kRounds);
-    progress_.tell({fmt::format("repetition {} of {}: {}", repetitions_ + 1, all, candidate.name()), done / all,
+    progress_.show({fmt::format("repetition {} of {}: {}", repetitions_ + 1, all, candidate.name()), done / all,
                     seconds_since(started_)});
   }
 

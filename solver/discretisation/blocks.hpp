@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "base/index.hpp"
@@ -8,6 +9,10 @@ namespace breccia {
 
 /// Width of a block: elements and nodes are stored in blocks of eight (AoSoA), one cache line a component.
 inline constexpr Index kLanes = 8;
+
+/// Numbers of the corners of a block's elements: [corner][axis][lane].
+inline constexpr std::size_t kBlockCorners = std::size_t{4} * 3 * kLanes;
+using BlockCorners = std::array<double, kBlockCorners>;
 
 /// Place of component `axis` of node `node` in a nodal field of 3 components: blocks [3][8].
 [[nodiscard]] constexpr std::size_t nodal(Index node, int axis) {

@@ -176,4 +176,16 @@ LocalMesh build_local_mesh(const Mesh& mesh, const std::vector<Discretisation>& 
   return local;
 }
 
+const double* LocalMesh::block_corners(Index block, const double* field, BlockCorners& room) const {
+  if (block < num_own_blocks()) return field + kBlockCorners * static_cast<std::size_t>(block);
+  for (Index lane = 0; lane < kLanes; ++lane) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const Index node = corner_node(block * kLanes + lane, corner);
+      for (int axis = 0; axis < 3; ++axis)
+        room[static_cast<std::size_t>((3 * corner + axis) * kLanes + lane)] = field[nodal(node, axis)];
+    }
+  }
+  return room.data();
+}
+
 }  // namespace breccia

@@ -139,7 +139,8 @@ template <class T>
 
 /// psi''(J) of psi(J) = -mu ln J + lambda/4 (J^2 - 1 - 2 ln J), Pa, for J >= j_min; below, psi is its Taylor polynomial
 /// of second order at j_min and psi'' stays.
-[[nodiscard]] [[gnu::always_inline]] inline double volumetric_curvature(double j, const ElasticParams& p) {
+template <class T>
+[[nodiscard]] [[gnu::always_inline]] inline T volumetric_curvature(const T& j, const ElasticParams& p) {
   return (p.mu + 0.5 * p.lambda) / (j * j) + 0.5 * p.lambda;
 }
 

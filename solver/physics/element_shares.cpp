@@ -92,19 +92,10 @@ void ElementShares::update(const StepModel& model, const Field<double>& position
   static const FrequencyFunction kernel = frequencies_for(best_simd());
   const LocalMesh& mesh = model.mesh;
   FrequencyGroup group;
-  std::array<double, 96> gathered{};
+  BlockCorners room;
   for (Index b = 0; b < mesh.num_blocks(); ++b) {
     const Index first = b * kLanes;
-    const double* corners = position.data() + 96 * at(b);
-    if (b >= mesh.num_own_blocks()) {
-      for (Index l = 0; l < kLanes; ++l) {
-        for (int c = 0; c < 4; ++c) {
-          const Index node = mesh.corner_node(first + l, c);
-          for (int i = 0; i < 3; ++i) gathered[at((3 * c + i) * kLanes + l)] = position[nodal(node, i)];
-        }
-      }
-      corners = gathered.data();
-    }
+    const double* corners = mesh.block_corners(b, position.data(), room);
     const ElasticParams& p = params_of(model, first);
     if (has_memory(p.law)) {
       for (Index s = first; s < first + kLanes; ++s)

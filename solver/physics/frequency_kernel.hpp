@@ -46,8 +46,7 @@ inline Real frequencies(const FrequencyGroup& group, const double* corners, cons
       turned += t * t;
     }
   }
-  const Real jc = el::clamped(j, p);
-  const Real curvature = (p.mu + 0.5 * p.lambda) / (jc * jc) + 0.5 * p.lambda;  // el::volumetric_curvature
+  const Real curvature = el::volumetric_curvature(el::clamped(j, p), p);
   return 4.0 / group.density * ((p.mu + excess) * plain + curvature * turned);
 }
 

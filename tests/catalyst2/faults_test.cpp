@@ -16,7 +16,9 @@ constexpr const char* kPipelines =
     " --set 'insitu.pipeline=[{name=\"fractures\", every_steps=100, strict=true}, {name=\"surface\", every_steps=100, "
     "strict=true}]' ";
 
-bool tells(const CatalystRun& run, const std::string& text) { return run.outcome.err.find(text) != std::string::npos; }
+bool reports(const CatalystRun& run, const std::string& text) {
+  return run.outcome.err.find(text) != std::string::npos;
+}
 
 /// Those that are not of the launcher of ranks.
 std::ptrdiff_t lines_of_the_program(const CatalystRun& run) {
@@ -29,7 +31,7 @@ std::ptrdiff_t lines_of_the_program(const CatalystRun& run) {
 /// One line, exit code 2, and nothing was given to the implementation.
 void expect_refused(const CatalystRun& run, const std::string& text) {
   EXPECT_EQ(run.outcome.exit_code, 2);
-  EXPECT_TRUE(tells(run, text)) << run.outcome.err;
+  EXPECT_TRUE(reports(run, text)) << run.outcome.err;
   EXPECT_EQ(lines_of_the_program(run), 1) << run.outcome.err;
   EXPECT_EQ(run.cells(), std::vector<std::string>{});
   EXPECT_FALSE(fs::exists(run.folder() / "history.csv")) << "the run has begun";
@@ -47,24 +49,24 @@ TEST_P(Catalyst2Faults, AnImplementationThatFailsCostsTheRunItsPipelinesAndNothi
   const CatalystRun plain(1, ""), run(GetParam(), kBackend + kPipelines, last_rank("throw"));
   EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_EQ(run.summary()["state_hash"], plain.summary()["state_hash"]);
-  EXPECT_TRUE(tells(run, "pipeline fractures: thrown on purpose")) << run.outcome.err;
-  EXPECT_TRUE(tells(run, "switched off after 3 failures")) << run.outcome.err;
+  EXPECT_TRUE(reports(run, "pipeline fractures: thrown on purpose")) << run.outcome.err;
+  EXPECT_TRUE(reports(run, "switched off after 3 failures")) << run.outcome.err;
 }
 
 TEST_P(Catalyst2Faults, AnAbortWithinAnImplementationLeavesALineThatNamesThePipelineAndIt) {
   const CatalystRun run(GetParam(), kBackend + kPipelines, last_rank("abort"));
   EXPECT_NE(run.outcome.exit_code, 0);
-  EXPECT_TRUE(tells(run,
-                    "breccia: error: pipeline fractures: implementation 'standin' of Catalyst 2 has ended the run by "
-                    "an abort (SIGABRT)\n"))
+  EXPECT_TRUE(reports(run,
+                      "breccia: error: pipeline fractures: implementation 'standin' of Catalyst 2 has ended the run by "
+                      "an abort (SIGABRT)\n"))
       << run.outcome.err;
 }
 
 TEST_P(Catalyst2Faults, AnImplementationThatDoesNotComeBackEndsTheRunWithALine) {
   const CatalystRun run(GetParam(), kBackend + kPipelines + "--set 'domains.patience=\"3 s\"'", last_rank("hang"));
   EXPECT_EQ(run.outcome.exit_code, 4) << run.outcome.err;
-  EXPECT_TRUE(GetParam() == 1 ? tells(run, "pipeline fractures: has not come back for ")
-                              : tells(run, "pipeline fractures: rank 0 has waited "))
+  EXPECT_TRUE(GetParam() == 1 ? reports(run, "pipeline fractures: has not come back for ")
+                              : reports(run, "pipeline fractures: rank 0 has waited "))
       << run.outcome.err;
 }
 
@@ -72,7 +74,7 @@ TEST_P(Catalyst2Faults, AStartThatDoesNotComeBackEndsTheRunWithALine) {
   const CatalystRun run(GetParam(), kBackend + kPipelines + "--set 'domains.patience=\"3 s\"'",
                         "STANDIN_FAIL_INITIALIZE=hang");
   EXPECT_EQ(run.outcome.exit_code, 4) << run.outcome.err;
-  EXPECT_TRUE(tells(run, "start of the in-situ pipelines: has not come back for ")) << run.outcome.err;
+  EXPECT_TRUE(reports(run, "start of the in-situ pipelines: has not come back for ")) << run.outcome.err;
 }
 
 TEST_P(Catalyst2Faults, AnImplementationOfAnotherVersionIsRefusedBeforeTheRun) {

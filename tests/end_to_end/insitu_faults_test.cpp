@@ -32,7 +32,7 @@ class FaultyRun {
     return json::parse(read_text(folder() / "summary.json"))["state_hash"].get<std::string>();
   }
   [[nodiscard]] std::ptrdiff_t lines() const { return std::count(outcome.err.begin(), outcome.err.end(), '\n'); }
-  [[nodiscard]] bool tells(const std::string& text) const { return outcome.err.find(text) != std::string::npos; }
+  [[nodiscard]] bool reports(const std::string& text) const { return outcome.err.find(text) != std::string::npos; }
   Outcome outcome;
 
  private:
@@ -45,7 +45,7 @@ TEST_P(InSituFaults, ADisplayThatDiesInTheMiddleOfAPictureCostsTheRunItsPictures
   const FaultyRun plain(1, ""), run(GetParam(), script("loses_display.py"));
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_EQ(run.hash(), plain.hash());
-  EXPECT_TRUE(run.tells("loses_display.py: the X display on which it draws has closed")) << run.outcome.err;
+  EXPECT_TRUE(run.reports("loses_display.py: the X display on which it draws has closed")) << run.outcome.err;
   EXPECT_LE(run.lines(), 2) << run.outcome.err;  // and that it is switched off
 }
 
@@ -54,8 +54,8 @@ TEST_P(InSituFaults, AScriptThatNeverEndsIsInterruptedAndSwitchedOffAndTheRunGoe
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_EQ(run.hash(), plain.hash());
   EXPECT_TRUE(
-      run.tells("loops.py: KeyboardInterrupt: interrupted: it has taken more than 12 s (domains.patience) "
-                "(loops.py:"))
+      run.reports("loops.py: KeyboardInterrupt: interrupted: it has taken more than 12 s (domains.patience) "
+                  "(loops.py:"))
       << run.outcome.err;
   EXPECT_EQ(std::count(run.outcome.err.begin(), run.outcome.err.end(), '\n'), 2) << run.outcome.err;
 }
@@ -63,7 +63,7 @@ TEST_P(InSituFaults, AScriptThatNeverEndsIsInterruptedAndSwitchedOffAndTheRunGoe
 TEST_P(InSituFaults, AScriptThatDoesNotComeBackFromALibraryEndsTheRunWithALine) {
   const FaultyRun run(GetParam(), script("sleeps.py"), "--set 'domains.patience=\"3 s\"'");
   EXPECT_EQ(run.outcome.exit_code, 4) << run.outcome.err;
-  EXPECT_TRUE(run.tells("breccia: error: pipeline " + script("sleeps.py") + ": has not come back for "))
+  EXPECT_TRUE(run.reports("breccia: error: pipeline " + script("sleeps.py") + ": has not come back for "))
       << run.outcome.err;
 }
 
@@ -79,10 +79,10 @@ TEST_P(InSituFaults, AScriptThatAsksForTheEndGetsTheStepThatFollowsWithItsEnergi
 TEST_P(InSituFaults, AnAbortWithinParaviewLeavesALineThatNamesThePipeline) {
   const FaultyRun run(GetParam(), script("aborts.py"));
   EXPECT_NE(run.outcome.exit_code, 0);
-  EXPECT_TRUE(run.tells("breccia: error: pipeline " + script("aborts.py") +
-                        ": ParaView has ended the run by an abort (SIGABRT)\n"))
+  EXPECT_TRUE(run.reports("breccia: error: pipeline " + script("aborts.py") +
+                          ": ParaView has ended the run by an abort (SIGABRT)\n"))
       << run.outcome.err;
-  EXPECT_FALSE(run.tells("*** Process received signal ***")) << run.outcome.err;
+  EXPECT_FALSE(run.reports("*** Process received signal ***")) << run.outcome.err;
 }
 
 INSTANTIATE_TEST_SUITE_P(OfRanks, InSituFaults, testing::Values(1, 2), testing::PrintToStringParamName());

@@ -37,7 +37,7 @@ std::string json_text(const RaceStatus& status) {
 RaceProgress::RaceProgress(ProgressMode mode, std::ostream& stream, int columns)
     : mode_(mode), stream_(stream), columns_(columns), pace_(interval_of(mode)) {}
 
-void RaceProgress::tell(const RaceStatus& status) {
+void RaceProgress::show(const RaceStatus& status) {
   pace_.done();
   switch (mode_) {
     case ProgressMode::none:

@@ -23,7 +23,7 @@ class RaceProgress {
 
   /// Whether a status would be shown now; called every step, so that no unused one is made.
   [[nodiscard]] bool due() const { return mode_ != ProgressMode::none && pace_.due(); }
-  void tell(const RaceStatus& status);
+  void show(const RaceStatus& status);
   /// The last line, before the results.
   void finish();
 

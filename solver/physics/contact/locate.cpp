@@ -6,10 +6,10 @@
 
 namespace breccia {
 
-/// For some steps, if they are as long as the last one.
+/// How far ahead the list reaches changes no result: a longer list is made less often and read with more couples.
 void Locator::wake() {
-  constexpr double kSteps = 16;
-  wake_couples(kSteps * std::max(0.0, contact_.travel - contact_.travel_before), contact_);
+  constexpr double kLastTravels = 16;  // ahead, in what was travelled in the last step
+  wake_couples(kLastTravels * std::max(0.0, contact_.travel - contact_.travel_before), contact_);
 }
 
 /// Locates a point in its contactors. @param couples  of one point

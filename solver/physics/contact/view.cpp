@@ -9,8 +9,6 @@ bool share_vertex(const LocalMesh& local, Index slot, Index other) {
   return std::any_of(a.begin(), a.end(), [&](Index v) { return std::find(b.begin(), b.end(), v) != b.end(); });
 }
 
-constexpr std::size_t kCorners = std::size_t{12} * kLanes;  // numbers of a block in a nodal field
-
 }  // namespace
 
 ContactView::ContactView(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
@@ -55,32 +53,18 @@ Vec3 ContactView::outward_of(const ContactPoint& point, double dt) const {
   });
 }
 
-const double* ContactView::corners_of(const StepElements::Block& block, const double* field,
-                                      std::span<double> room) const {
-  if (block.index < local_.num_own_blocks()) return field + at(block.index) * kCorners;
-  std::fill(room.begin(), room.end(), 0.0);
-  for (Index lane = 0; lane < kLanes; ++lane) {
-    const Index slot = block.index * kLanes + lane;
-    if (local_.element_of_slot[at(slot)] < 0) continue;
-    for (int c = 0; c < 4; ++c) {
-      for (int i = 0; i < 3; ++i) room[at((3 * c + i) * kLanes + lane)] = field[nodal(local_.corner_node(slot, c), i)];
-    }
-  }
-  return room.data();
-}
-
 StepElements::Block& ContactView::prepare_block(Index slot) {
   StepElements::Block& block = contact_.elements.prepare(slot);
-  alignas(64) std::array<double, kCorners> room;
-  kernels_.prepare(corners_of(block, state_.position.data(), room), local_.volume.data() + at(block.index) * kLanes,
-                   block.elements.data());
+  BlockCorners room;
+  kernels_.prepare(local_.block_corners(block.index, state_.position.data(), room),
+                   local_.volume.data() + at(block.index) * kLanes, block.elements.data());
   return block;
 }
 
 void ContactView::prepare_motion(StepElements::Block& block) const {
   block.moved_in = contact_.elements.step();
-  alignas(64) std::array<double, kCorners> room;
-  kernels_.move_elements(corners_of(block, state_.velocity.data(), room), block.elements.data());
+  BlockCorners room;
+  kernels_.move_elements(local_.block_corners(block.index, state_.velocity.data(), room), block.elements.data());
 }
 
 void ContactView::prepare_forces(StepElements::Block& block) const {

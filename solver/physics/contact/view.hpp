@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <span>
 
 #include "base/exact_sum.hpp"
 #include "base/index.hpp"
@@ -117,9 +116,6 @@ class ContactView {
   StepElements::Block& prepare_block(Index slot);
   void prepare_motion(StepElements::Block& block) const;
   void prepare_forces(StepElements::Block& block) const;
-  /// Numbers of a block's corners in a nodal field, [corner][axis][lane]. @param room  for those of shared nodes
-  [[nodiscard]] const double* corners_of(const StepElements::Block& block, const double* field,
-                                         std::span<double> room) const;
   [[nodiscard]] StepElement& element_to_act_on(Index slot) {
     StepElements::Block& block = block_with(slot);
     if (block.acted_in != contact_.elements.step()) prepare_forces(block);

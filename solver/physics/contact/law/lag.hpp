@@ -46,8 +46,8 @@ void follow_normal_force(const std::type_identity_t<Real>& normal, const std::ty
                          bool second_stage = true) {
   using elasticity::select;
   delayed.age = elasticity::lesser(Real(delayed.age + dt), Real(kSteadyAge * longest));
-  const Real settled = select(longest > 0.0, Real(delayed.age / (kSteadyAge * longest)), Real(0.0));
-  const Real half = (second_stage ? 0.5 : 1.0) * longest * settled * settled;
+  const Real maturity = select(longest > 0.0, Real(delayed.age / (kSteadyAge * longest)), Real(0.0));
+  const Real half = (second_stage ? 0.5 : 1.0) * longest * maturity * maturity;
   const auto late = dt < half;
   const Real share = dt / half;
   delayed.halfway = select(late, Real(delayed.halfway + (normal - delayed.halfway) * share), Real(normal));
