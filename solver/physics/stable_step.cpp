@@ -111,8 +111,8 @@ double stiffest(const StepModel& model, std::span<const StepShare> shares) {
 
 /// Local damping needs about five steps a period, otherwise it does not damp: the sign of a node's velocity is then
 /// that of the slow motion, the vibrations lose no energy, and the mean of the |f| that they cause is a drag on the
-/// slow motion. A cantilever of stiff joints (penalty_factor 100, beta 0.6) under a load that grows over about one of its
-/// periods reached 0.36, 0.83 and 1.00 of its bending with 2, 3 and 5 here; one of 300 reached 0.96 with 5.
+/// slow motion. A cantilever of stiff joints (penalty_factor 100, beta 0.6) under a load that grows over about one of
+/// its periods reached 0.36, 0.83 and 1.00 of its bending with 2, 3 and 5 here; one of 300 reached 0.96 with 5.
 constexpr double kSlowMotionFactor = 5.0;
 
 ElementSteps::ElementSteps(const StepModel& model, double most)
