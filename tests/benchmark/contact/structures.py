@@ -72,7 +72,7 @@ class Seam:
     def cases(self):
         cases = {}
         for split in (False, True):
-            for points in (3, 4):
+            for points in (1, 3, 4, 6):
                 law = [] if split else ["[[joint]]", 'group = "floor"', "tensile_strength = 1e6", "energy_mode_1 = 100",
                                         "[joints]", 'broken = ["crack"]']
                 floor = material(["floor"], 20e6)
