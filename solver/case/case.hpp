@@ -184,7 +184,7 @@ struct Contact {
 
 /// [contact_points]
 struct ContactPoints {
-  int per_face = 3;  ///< 1, 3, 4 or 6
+  int per_face = 4;  ///< 1, 3, 4 or 6
   OverlapField field = OverlapField::body;
   bool everywhere = true;  ///< false: only faces of `surfaces`
   std::vector<std::string> surfaces;

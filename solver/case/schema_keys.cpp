@@ -286,7 +286,7 @@ constexpr auto model_keys = std::to_array<Key>({
 
     {.path = "contact_points", .type = section, .help = "Points on free faces at which contact is evaluated.",
      .fixed_by_state = "the contact of the points is part of the state"},
-    {.path = "contact_points.per_face", .type = integer, .fallback = "3", .choices = "1|3|4|6",
+    {.path = "contact_points.per_face", .type = integer, .fallback = "4", .choices = "1|3|4|6",
      .help = "Points of each free face: 1, 3 and 6 lie inside the face; of 4, three are its corners, so that contact "
              "with an edge or corner is detected at once. Use 4 where tipping or narrow contact areas matter.",
      .example = "4"},

@@ -11,6 +11,7 @@
 #include "mesh/tetrahedron.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "physics/contact/geometry/field.hpp"
+#include "physics/contact/geometry/outward.hpp"
 
 namespace breccia {
 namespace {
@@ -210,8 +211,8 @@ void relax_initial_overlaps(const ContactParams& params, const LocalMesh& local,
     const auto lambda = barycentric(tetra, points[at(couple.point)]);
     if (!inside(lambda)) continue;
     const OverlapShape shape = overlap_shape(params, local, contact, couple.contactor);
-    const Vec3 outward =
-        outward_normal(contact.points[at(point)], [&](Index node) { return load_node(position.data(), node); });
+    const Outward outward = outward_at(rule, local, contact, contact.points[at(point)],
+                                       [&](Index node) { return load_node(position.data(), node); });
     const double overlap = overlap_value(
         shape, lambda, has_sides(params, contact, couple.contactor) ? rows_for(shape, tetra, outward) : kAllRows);
     if (overlap > 0) contact.touching.push_back({point, couple.contactor, {.offset = overlap}});

@@ -21,11 +21,18 @@ void for_each_set(CornerSets sets, F&& f) {
     f(static_cast<unsigned>(std::countr_zero(left)));
 }
 
-/// Of the sets of one or two corners of an element, ascending: how far each corner lies behind a plane through the set,
-/// m; all zero where there is none. No element of six meshes with 54,000 had more of them than so many at rest; further
-/// ones have none.
-inline constexpr std::size_t kMostSides = 4;
+/// How far each corner of an element lies behind some sides of the surface, m: those of its sets of one or two corners,
+/// ascending, all zero where there is none; with kExact, as many as num_planes() says, each a function of the overlap.
+/// No element of six meshes with 54,000 had more than four sets of one or two corners; what is beyond has none.
+inline constexpr std::size_t kMostSides = 6;
 using SideRows = std::array<std::array<double, 4>, kMostSides>;
+
+/// Beside the sets, of an element that cannot break: its overlap is the least distance to the sides of the surface
+/// around it (mesh/surface_planes.hpp) and not made of the sets.
+inline constexpr CornerSets kExact = 1 << kNumCornerSets;
+inline constexpr int kPlanesBit = 16;
+[[nodiscard]] constexpr CornerSets with_planes(std::size_t count) { return static_cast<CornerSets>(count) << kPlanesBit; }
+[[nodiscard]] constexpr std::size_t num_planes(CornerSets sets) { return static_cast<std::size_t>(sets) >> kPlanesBit; }
 
 /// Calls f(m, place among the sets of one or two corners, or -1) for every set, ascending.
 template <class F>

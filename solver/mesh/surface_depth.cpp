@@ -2,40 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "base/index.hpp"
+#include "mesh/faces_at_nodes.hpp"
 #include "mesh/free_faces.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/point_distance.hpp"
+#include "mesh/surface_planes.hpp"
 
 namespace breccia {
 namespace {
 
 /// Of the sum of normals: what lies between the two sides of a sheet has none of its own.
 constexpr double kNoSide = 1e-3;
-
-/// Free faces around every node, as rows of one array.
-class FacesAtNodes {
- public:
-  explicit FacesAtNodes(const Mesh& mesh, const std::vector<FreeFace>& faces) : first_(mesh.nodes.size() + 1, 0) {
-    for (const FreeFace& face : faces) {
-      for (const Index node : face) ++first_[at(node) + 1];
-    }
-    for (std::size_t n = 1; n < first_.size(); ++n) first_[n] += first_[n - 1];
-    faces_.resize(at(first_.back()));
-    std::vector<Index> next(first_.begin(), first_.end() - 1);
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      for (const Index node : faces[f]) faces_[at(next[at(node)]++)] = static_cast<Index>(f);
-    }
-  }
-  [[nodiscard]] std::span<const Index> at_node(Index node) const {
-    return std::span(faces_).subspan(at(first_[at(node)]), at(first_[at(node) + 1] - first_[at(node)]));
-  }
-
- private:
-  std::vector<Index> first_, faces_;
-};
 
 CornerSets sets_of(const std::array<Index, 4>& corners, const std::vector<FreeFace>& faces,
                    const FacesAtNodes& around) {
@@ -69,8 +50,7 @@ SideRows sides_of(const Mesh& mesh, const std::array<Index, 4>& corners, CornerS
       bool all = true;
       for (std::size_t c = 0; c < 4; ++c) all = all && ((set >> c & 1U) == 0 || has(face, c));
       if (!all) continue;
-      const Vec3 &a = mesh.nodes[at(face[0])], &b = mesh.nodes[at(face[1])], &c = mesh.nodes[at(face[2])];
-      outward += (b - a).cross(c - a).normalized();
+      outward += normal_of(mesh, face);
     }
     if (!(outward.norm() > kNoSide)) return;
     outward.normalize();
@@ -80,6 +60,26 @@ SideRows sides_of(const Mesh& mesh, const std::array<Index, 4>& corners, CornerS
     }
   });
   return sides;
+}
+
+/// Mean normals of the nodes, faces weighted with their angles.
+std::vector<Vec3> mean_normals(const Mesh& mesh, const std::vector<FreeFace>& faces) {
+  std::vector<Vec3> sum(mesh.nodes.size(), Vec3::Zero());
+  std::vector<double> angles(mesh.nodes.size(), 0.0);
+  for (const FreeFace& face : faces) {
+    const Vec3 normal = normal_of(mesh, face);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& corner = mesh.nodes[at(face[i])];
+      const Vec3 a = mesh.nodes[at(face[(i + 1) % 3])] - corner, b = mesh.nodes[at(face[(i + 2) % 3])] - corner;
+      const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+      sum[at(face[i])] += angle * normal;
+      angles[at(face[i])] += angle;
+    }
+  }
+  for (std::size_t n = 0; n < sum.size(); ++n) {
+    if (angles[n] > 0) sum[n] /= angles[n];
+  }
+  return sum;
 }
 
 /// Of a node's elements.
@@ -138,11 +138,12 @@ void set_distances(const Mesh& mesh, const Topology& topology, const std::vector
 }  // namespace
 
 SurfaceDepth surface_depth(const std::vector<bool>& breakable, const Mesh& mesh, const Topology& topology) {
-  SurfaceDepth result{std::vector<std::uint8_t>(mesh.nodes.size(), 0), {}, {}, {}};
+  SurfaceDepth result{std::vector<std::uint8_t>(mesh.nodes.size(), 0), {}, {}, {}, {}};
   const std::vector<FreeFace> faces = free_faces(mesh, topology);
   for (const FreeFace& face : faces) {
     for (const Index node : face) result.on_surface[at(node)] = 1;
   }
+  result.normal = mean_normals(mesh, faces);
   const FacesAtNodes faces_at(mesh, faces);
   result.sets.reserve(mesh.elements.size());
   result.sides.reserve(mesh.elements.size());
@@ -156,6 +157,12 @@ SurfaceDepth surface_depth(const std::vector<bool>& breakable, const Mesh& mesh,
   for (const Around& node : around) result.depth.push_back(node.least_height);
   if (std::any_of(around.begin(), around.end(), [](const Around& node) { return !node.breakable; }))
     set_distances(mesh, topology, faces, around, result);
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    if (breakable[at(mesh.element_group[at(e)])] || result.sets[at(e)] == 0) continue;
+    const SurfacePlanes planes = surface_planes(mesh, e, faces, faces_at, result.depth);
+    result.sets[at(e)] |= kExact | with_planes(planes.count);
+    result.sides[at(e)] = planes.rows;
+  }
   return result;
 }
 

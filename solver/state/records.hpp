@@ -58,6 +58,7 @@ struct FieldTable<ElementRecord> {
       FieldRow{"overlap_depth", "m", kState, [](auto& r) -> auto& { return r.field.depth; }},
       FieldRow{"surface_corners", "1", kState, [](auto& r) -> auto& { return r.field.sets; }},
       FieldRow{"surface_sides", "m", kNotHashed, [](auto& r) -> auto& { return r.field.sides; }},
+      FieldRow{"surface_normals", "1", kNotHashed, [](auto& r) -> auto& { return r.field.normal; }},
   };
 // clang-format on
 }

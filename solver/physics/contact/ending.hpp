@@ -22,8 +22,8 @@ class EndedCouples {
   EndedCouples(ContactView& view, ContactState& contact, ContactWork& work)
       : view_(view), contact_(contact), work_(work) {}
 
-  /// A couple that no candidate continues: the stored energy of the normal law was returned as work, or is dissipated;
-  /// the spring is released. What is left of it, if anything, is appended to ContactState::touching, and its force to
+  /// A couple that no candidate continues: the stored energy of the normal law was returned as work, or is dissipated, or
+  /// is returned by a push where the point has left across an edge; the spring is released. What is left of it, if anything, is appended to ContactState::touching, and its force to
   /// forces(). @param lost  J, by the normal law in this step
   void end(const TouchingCouple& old, double lost = 0);
 
@@ -37,14 +37,18 @@ class EndedCouples {
   void clear() { forces_.clear(); }
 
  private:
-  /// J, lost where the point has not left through the side that it pressed on; none: it has.
   struct Escape {
     double overlap;  ///< m, of the place that it has left to
-    double lost;     ///< J
-    bool is_over;    ///< nothing of the couple is left
+    double left;     ///< J, still stored; none: it has left through the side that it pressed on
+    bool is_over;    ///< it cannot be returned
   };
   [[nodiscard]] Escape escape_of(const TouchingCouple& old, const ContactPair<double>& pair,
                                  const std::array<double, 4>& lambda, const Vec3& motion) const;
+  [[nodiscard]] Vec3 way_out(const TouchingCouple& old, const std::array<double, 4>& lambda, const Vec3& motion,
+                             bool across_edge) const;
+  [[nodiscard]] Vec3 push(const ContactPair<double>& pair, const Vec3& outward, const Vec3& motion,
+                          PairHistory<double>& h) const;
+  Vec3 account_force(const Vec3& motion, PairHistory<double>& h) const;
   void keep(const TouchingCouple& ended, double overlap, const ContactPair<double>& pair,
             const std::array<double, 4>& lambda, const Vec3& place);
   [[nodiscard]] bool is_near(const std::array<double, 4>& lambda, Index slot, const Vec3& place) const;

@@ -19,6 +19,8 @@ struct PairHistory {
   using Vector = VectorOf<T>;
   T d = 0.0;                       ///< overlap over H, offset subtracted
   T d_max = 0.0;                   ///< largest d since the overlap began
+  T share = 0.0;                   ///< of the weight of the point (geometry/outward.hpp), since the force began
+  T sides = 0.0;                   ///< functions of the overlap that count (OverlapRows), a bit each
   T offset = 0.0;                  ///< m, overlap without force; < 0: force before an overlap (resolve.hpp)
   Vector spring{0.0, 0.0, 0.0};    ///< m, elongation of the friction spring
   Vector friction{0.0, 0.0, 0.0};  ///< N, tangential force on the point
@@ -36,6 +38,8 @@ template <class F, class... Histories>
 [[gnu::always_inline]] constexpr void for_each_pair_number(F&& f, Histories&... histories) {
   f(PairNumber{"overlap", "1"}, histories.d...);
   f(PairNumber{"largest_overlap", "1"}, histories.d_max...);
+  f(PairNumber{"share", "1"}, histories.share...);
+  f(PairNumber{"sides", "1"}, histories.sides...);
   f(PairNumber{"offset", "m"}, histories.offset...);
   f(PairNumber{"spring", "m"}, histories.spring[0]...);
   f(PairNumber{"spring", "m"}, histories.spring[1]...);

@@ -34,7 +34,6 @@ void PairQueue::push(Index point, const Candidate& candidate, std::size_t place)
   const std::size_t lane = filled_++;
   lanes_[lane] = {point, place, candidate, 0.0, nullptr};
   fill_place(view_.point(point), candidate, lane);
-  fill_laws(point, candidate, lane);
   const auto put_number = [lane](const PairNumber&, const double& x, ContactRow& row) { row[lane] = x; };
   if (candidate.old >= 0) {
     for_each_pair_number(put_number, contact_.touching_before[at(candidate.old)].history, block_.history);
@@ -43,6 +42,8 @@ void PairQueue::push(Index point, const Candidate& candidate, std::size_t place)
     for_each_pair_number(put_number, fresh, block_.history);
   }
   block_.history.gained_before[lane] += candidate.gained;
+  block_.history.sides[lane] = candidate.rows;
+  fill_laws(point, candidate, lane);
   if (filled_ == lanes_.size()) evaluate();
 }
 
@@ -92,7 +93,9 @@ void PairQueue::fill_laws(Index index, const Candidate& candidate, std::size_t l
   const Index contactor = candidate.contactor;
   const ContactLaw& law = view_.law_of(index, contactor);
   lanes_[lane].law = &law;
-  block_.weight[lane] = point.weight;
+  double& share = block_.history.share[lane];
+  if (!(block_.history.d[lane] > 0)) share = view_.share_of(index, contactor, candidate.lambda);
+  block_.weight[lane] = share * point.weight;
   block_.length[lane] = view_.length_of(contactor);
   block_.longest_delay[lane] = view_.rules().friction_lag_stages > 0 ? view_.longest_delay(law, index, contactor) : 0.0;
   block_.continues[lane] = candidate.old >= 0 ? 1 : 0;
@@ -101,8 +104,8 @@ void PairQueue::fill_laws(Index index, const Candidate& candidate, std::size_t l
   const TouchingCouple& old = contact_.touching_before[at(candidate.old)];
   const PairHistory<double>& h = old.history;
   if (old.contactor == contactor || &view_.law_of(index, old.contactor) == &law) return;
-  block_.stored_by_old_law[lane] = pair_step::stored_energy(view_.pair_of(index, old.contactor), h) -
-                                   pair_step::stored_energy(view_.pair_of(index, contactor), h);
+  block_.stored_by_old_law[lane] = pair_step::stored_energy(view_.pair_of(index, old.contactor, h.share), h) -
+                                   pair_step::stored_energy(view_.pair_of(index, contactor, h.share), h);
 }
 
 /// Makes the block whole: what is computed of empty lanes is discarded.
@@ -166,9 +169,9 @@ double PairQueue::damping_before(std::size_t lane) const {
   const Vec3 motion = vector_of(block_.motion, lane), gradient = vector_of(block_.gradient, lane);
   const ContactView::Before then = view_.one_step_ago(point, old.contactor);
   const OverlapShape& shape = view_.shape_of(old.contactor, Instant::step_before);
-  const Vec3 last = inert(then.tetra) ? gradient : overlap(shape, then.tetra, then.lambda, then.rows).gradient;
-  const double before =
-      (h.force - h.friction).norm() / (factor * last.norm()) - point.weight * normal_law::stress(*law, h.d, h.d_max);
+  const Vec3 last = inert(then.tetra) ? gradient : overlap(shape, then.tetra, then.lambda, sides_of(h)).gradient;
+  const double elastic = h.share * point.weight * normal_law::stress(*law, h.d, h.d_max);
+  const double before = (h.force - h.friction).norm() / (factor * last.norm()) - elastic;
   return before * (turn == 0 ? last.dot(motion) : gradient.dot(motion) - turn);
 }
 
@@ -190,7 +193,7 @@ void PairQueue::take_results(std::size_t lane) {
   if (force == Vec3::Zero()) {
     const PairHistory<double> last = history_before(candidate);
     if (!(h.d > 0) && last.force == Vec3::Zero()) return;
-    force = ended_.pull(view_.pair_of(index, candidate.contactor), last, vector_of(block_.motion, lane), h);
+    force = ended_.pull(view_.pair_of(index, candidate.contactor, h.share), last, vector_of(block_.motion, lane), h);
     if (force == Vec3::Zero()) return;
   }
   view_.add_force(point, candidate.contactor, candidate.lambda, force);

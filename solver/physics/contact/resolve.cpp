@@ -7,6 +7,7 @@ namespace breccia {
 
 std::span<Candidate> Resolver::candidates(Index point, std::span<const Nearby> inside, std::span<Nearby> beside) {
   candidates_.clear();
+  end_before(point);
   for (const Nearby& here : inside) consider(view_.point(point), here.couple->contactor, here.lambda);
   if (!beside.empty()) bridge_gaps(point, beside);
   if (candidates_.size() > 1 && view_.rules().one_of_neighbours) drop_ambiguous();
@@ -24,14 +25,51 @@ Candidate Resolver::candidate_of(const ContactPoint& point, Index contactor,
     const OverlapFunction least = view_.least_function_of(contactor, lambda);
     return {contactor, lambda, kAllRows, least.row, least.g, least.g};
   }
+  const OverlapRows rows = sides_for(point, contactor);
   const OverlapShape& shape = view_.shape_of(contactor);
-  const OverlapRows rows = view_.rows_of(point, contactor, shape, view_.tetra_of(contactor));
   const std::size_t least = least_row(shape, lambda, rows);
   const double g = row_value(shape, least, lambda);
   Candidate candidate{contactor, lambda, rows, shape.row[least], g, g};
   if (view_.is_growing(contactor))
     candidate.g_before = overlap_value(view_.shape_of(contactor, Instant::step_before), lambda, rows);
   return candidate;
+}
+
+/// The functions of a contactor that count for a point: as long as it presses those that counted before, so that no side
+/// comes or goes while bodies turn, otherwise those whose sides face the point.
+OverlapRows Resolver::sides_for(const ContactPoint& point, Index contactor) const {
+  if (!view_.has_several_sides(contactor)) return kAllRows;
+  const std::vector<TouchingCouple>& old = contact_.touching_before;
+  const TouchingCouple* before = nullptr;
+  for (std::size_t k = old_; k < old.size() && contact_.id(old[k].point) == point.id; ++k) {
+    if (!(old[k].history.d > 0)) continue;
+    if (old[k].contactor == contactor) return sides_of(old[k].history);
+    if (view_.are_neighbours(old[k].contactor, contactor)) before = &old[k];
+  }
+  const OverlapRows continued = before == nullptr ? 0 : same_sides(*before, contactor);
+  if (continued != 0) return continued;
+  return rows_for(view_.shape_of(contactor), view_.tetra_of(contactor), view_.outward_of(point));
+}
+
+/// Functions of a contactor whose sides are those that counted in its neighbour.
+OverlapRows Resolver::same_sides(const TouchingCouple& before, Index contactor) const {
+  constexpr double kSame = 0.95;  // cosine; neighbouring triangles of a curved surface are one side
+  std::array<Vec3, kNumCornerSets> counted;
+  std::size_t count = 0;
+  const OverlapShape& there = view_.shape_of(before.contactor);
+  for (std::size_t k = 0; k < there.rows; ++k) {
+    if ((sides_of(before.history) >> k & 1U) != 0)
+      counted[count++] = side_gradient(there, k, view_.tetra_of(before.contactor)).normalized();
+  }
+  OverlapRows same = 0;
+  const OverlapShape& here = view_.shape_of(contactor);
+  for (std::size_t k = 0; k < here.rows; ++k) {
+    const Vec3 inward = side_gradient(here, k, view_.tetra_of(contactor)).normalized();
+    const bool is_same = std::any_of(counted.begin(), counted.begin() + static_cast<std::ptrdiff_t>(count),
+                                     [&](const Vec3& other) { return other.dot(inward) > kSame; });
+    if (is_same) same |= OverlapRows{1} << k;
+  }
+  return same;
 }
 
 /// Adds the contactor to the candidates of a point if its overlap is positive now or was so before the field moved.
@@ -42,22 +80,17 @@ void Resolver::consider(const ContactPoint& point, Index contactor, const std::a
 
 /// A point that pressed on an element and is now in a joint that opens beside it, in none of its neighbours, keeps its
 /// couple: the force would end within a step, and with it the energy that the couple holds. A point that did not press
-/// cannot matter to the element before it is inside, unless that replaces a neighbour.
+/// cannot matter to the element before it is inside.
 void Resolver::bridge_gaps(Index point, std::span<Nearby> beside) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
-  end_before(point);
   const std::size_t inside = candidates_.size();
-  bool any_sides = false;
   for (const Nearby& here : beside) {
     const Index contactor = here.couple->contactor;
-    const bool has_sides = view_.has_sides(contactor);
-    any_sides = any_sides || has_sides;
     bool pressed = false;
     for (std::size_t k = old_; k < old.size() && old[k].point == point; ++k)
       pressed = pressed || (old[k].contactor == contactor && old[k].history.d > 0);
     if (!pressed) {
-      // Nearby a side it may come to lie under it at any time, without coming nearer.
-      if (!has_sides) here.couple->apart_until = contact_.travel + here.safe;
+      here.couple->apart_until = contact_.travel + here.safe;
       continue;
     }
     const bool continues =
@@ -65,51 +98,9 @@ void Resolver::bridge_gaps(Index point, std::span<Nearby> beside) {
                     [&](const Candidate& c) { return view_.are_neighbours(c.contactor, contactor); });
     if (!continues && view_.rules().bridge_gaps) consider(view_.point(point), contactor, here.lambda);
   }
-  if (candidates_.size() == inside && !any_sides) return;
-  if (view_.rules().prefer_facing_side) prefer_facing_sides(view_.point(point), beside, inside);
+  if (candidates_.size() == inside) return;
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.contactor < b.contactor; });
-  // One may have replaced two that share the place of the point.
-  const auto last = std::unique(candidates_.begin(), candidates_.end(),
-                                [](const Candidate& a, const Candidate& b) { return a.contactor == b.contactor; });
-  candidates_.erase(last, candidates_.end());
-}
-
-/// How the side faces under which the point would lie if the contactor reached so far. @pre it has sides
-Facing Resolver::side_over(const ContactPoint& point, const Nearby& here) const {
-  const Index contactor = here.couple->contactor;
-  const OverlapShape& shape = view_.shape_of(contactor);
-  const FacingRows most = rows_facing(shape, view_.tetra_of(contactor), view_.outward_of(point));
-  return most.rows != 0 && overlap_value(shape, here.lambda, most.rows) > 0 ? most.facing : Facing::away;
-}
-
-/// The nearest neighbour of a candidate with a side that faces the point's face more; null: none.
-const Nearby* Resolver::facing_more(const ContactPoint& point, std::span<const Nearby> beside, Index candidate) const {
-  const Nearby* best = nullptr;
-  std::optional<Facing> most;
-  for (const Nearby& here : beside) {
-    const Index contactor = here.couple->contactor;
-    // Most surfaces of debris have no distinguished sides.
-    if (!view_.has_sides(contactor) || !view_.are_neighbours(contactor, candidate)) continue;
-    if (!most) most = rows_facing(view_.shape_of(candidate), view_.tetra_of(candidate), view_.outward_of(point)).facing;
-    if (best == nullptr && *most == Facing::well) return nullptr;
-    const Facing facing = side_over(point, here);
-    const bool nearer = best != nullptr && facing == *most && smallest(here.lambda) > smallest(best->lambda);
-    if (!(facing > *most) && !nearer) continue;
-    most = facing;
-    best = &here;
-  }
-  return best;
-}
-
-/// Just beside an edge a point may be in an element that has only the other side of the edge: the nearest neighbour
-/// with a side that faces the point's face more replaces it, as if it extended so far.
-/// @param inside  number of candidates that the point is in, which come first
-void Resolver::prefer_facing_sides(const ContactPoint& point, std::span<const Nearby> beside, std::size_t inside) {
-  for (std::size_t i = 0; i < inside; ++i) {
-    const Nearby* best = facing_more(point, beside, candidates_[i].contactor);
-    if (best != nullptr) candidates_[i] = candidate_of(point, best->couple->contactor, best->lambda);
-  }
 }
 
 /// A point on the border of neighbouring elements is inside all of them (kInside): the first one counts. So it does
@@ -139,7 +130,6 @@ void Resolver::end_before(Index point) {
 
 void Resolver::find_histories(Index point) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
-  end_before(point);
   const std::size_t first = old_;
   while (old_ < old.size() && old[old_].point == point) ++old_;
   if (old_ > first) continue_histories(first, old_);
@@ -193,8 +183,8 @@ Adjusted Resolver::adjust(Index point, const Candidate& candidate, const PairHis
     const TouchingCouple& old = contact_.touching_before[at(candidate.old)];
     switch_gradient(view_.point(point), candidate, old, motion, gradient, now);
   }
-  if (view_.rules().far_side && !(h.d > 0) && now.overlap_before > now.offset &&
-      comes_from_beside(view_.point(point), candidate, motion, now.offset))
+  if (view_.rules().facing_face && !(h.d > 0) && now.overlap_before > now.offset &&
+      comes_from_beside(view_.point(point), candidate, motion))
     now.offset = now.overlap_before;
   return now;
 }
@@ -232,9 +222,9 @@ void Resolver::switch_gradient(const ContactPoint& point, const Candidate& candi
   if (!inert(last.tetra)) {
     const OverlapShape& shape = view_.shape_of(old.contactor, Instant::step_before);
     const bool same = old.contactor == candidate.contactor &&
-                      least_row(shape, last.lambda, last.rows) == least_row(shape, candidate.lambda, candidate.rows);
+                      least_row(shape, last.lambda, sides_of(h)) == least_row(shape, candidate.lambda, candidate.rows);
     if (was_kept && same) return;
-    along_before = overlap(shape, last.tetra, last.lambda, last.rows).gradient.dot(motion);
+    along_before = overlap(shape, last.tetra, last.lambda, sides_of(h)).gradient.dot(motion);
   }
   now.turn = 0;
   if (!(h.d > 0)) {  // as a new couple: no force has done work for more than the motion inwards
@@ -247,22 +237,15 @@ void Resolver::switch_gradient(const ContactPoint& point, const Candidate& candi
   now.overlap_before -= beyond - turned;
 }
 
-/// Whether no side of the surface faces the face of the point, for example at the front of a block, where a point of
-/// the floor enters an element above the lower edge. A force there would stop the block, which slides over the point.
-/// No force starts either if the nearest facing surface is deeper than kFarSide: on the lower side of a stone of an
-/// arch, from the upper side of the next. Without motion the positions are initial ones.
-/// @param offset  m, of the couple, which exerts no force
-bool Resolver::comes_from_beside(const ContactPoint& point, const Candidate& candidate, const Vec3& motion,
-                                 double offset) const {
+/// Whether the side that counts does not face the face of the point: at the front of a block, where a point of the floor
+/// enters an element above the lower edge, a force would stop the block, which slides over the point; a point at the
+/// lower end of the front has the faces below it, whose points press. Without motion the positions are initial ones.
+bool Resolver::comes_from_beside(const ContactPoint& point, const Candidate& candidate, const Vec3& motion) const {
   if (motion == Vec3::Zero()) return false;
   const OverlapShape& shape = view_.shape_of(candidate.contactor, Instant::step_before);
   const std::size_t least = least_row(shape, candidate.lambda, candidate.rows);
   const Vec3 inward = side_gradient(shape, least, view_.tetra_of(candidate.contactor));
-  if (facing(view_.outward_of(point), inward) == Facing::away) return true;
-  const std::array<double, 4>& depth = shape.row[least];
-  const double g = row_value(shape, least, candidate.lambda);
-  const bool is_far = g > kFarSide * *std::max_element(depth.begin(), depth.end());
-  return is_far && offset > 0.5 * g && overlap_value(shape, candidate.lambda) < 0.5 * g;
+  return facing(view_.outward_of(point).face, inward) == Facing::away;
 }
 
 bool Resolver::is_fresh(const ContactCouple& couple) const {

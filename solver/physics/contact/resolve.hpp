@@ -61,12 +61,10 @@ class Resolver {
  private:
   [[nodiscard]] Candidate candidate_of(const ContactPoint& point, Index contactor,
                                        const std::array<double, 4>& lambda) const;
+  [[nodiscard]] OverlapRows sides_for(const ContactPoint& point, Index contactor) const;
+  [[nodiscard]] OverlapRows same_sides(const TouchingCouple& before, Index contactor) const;
   void consider(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda);
   void bridge_gaps(Index point, std::span<Nearby> beside);
-  void prefer_facing_sides(const ContactPoint& point, std::span<const Nearby> beside, std::size_t inside);
-  [[nodiscard]] const Nearby* facing_more(const ContactPoint& point, std::span<const Nearby> beside,
-                                          Index candidate) const;
-  [[nodiscard]] Facing side_over(const ContactPoint& point, const Nearby& here) const;
   void drop_ambiguous();
   void end_before(Index point);
   void find_histories(Index point);
@@ -75,8 +73,8 @@ class Resolver {
                                     const Vec3& gradient) const;
   void switch_gradient(const ContactPoint& point, const Candidate& candidate, const TouchingCouple& old,
                        const Vec3& motion, const Vec3& gradient, Adjusted& now) const;
-  [[nodiscard]] bool comes_from_beside(const ContactPoint& point, const Candidate& candidate, const Vec3& motion,
-                                       double offset) const;
+  [[nodiscard]] bool comes_from_beside(const ContactPoint& point, const Candidate& candidate,
+                                       const Vec3& motion) const;
   [[nodiscard]] Vec3 gradient_before(const Candidate& candidate, const Vec3& gradient) const;
   [[nodiscard]] bool is_fresh(const ContactCouple& couple) const;
 

@@ -13,9 +13,11 @@ struct ContactRules {
   int friction_lag_stages = 2;     ///< 0: the limit of friction follows the normal force at once
   bool friction_age = true;        ///< the delay grows with the age of the overlap; false: it is the longest at once
   bool spring_turns = true;        ///< springs turn about the normal with the surfaces
+  bool shares = true;              ///< the sharper of two surfaces presses on the flatter one
+  bool corner_normals = true;      ///< a point at a corner of the body faces what any of the faces there does
+  bool edge_push = true;           ///< after a point has left across an edge a push returns the energy that it stored
   bool facing_sides = true;        ///< of several sides of the surface those count that face the face of the point
-  bool prefer_facing_side = true;  ///< just beside an edge the neighbour whose side faces the face more counts
-  bool far_side = true;            ///< no force begins where no side faces, or only one that is far away
+  bool facing_face = true;         ///< no force begins where the side that counts does not face the face of the point
   bool bridge_gaps = true;         ///< a point that pressed on an element and is now in a joint beside it stays with it
   bool one_of_neighbours = true;   ///< of neighbouring elements that hold a point the first one counts
   bool first_offset = true;        ///< what lies deeper at first than its point has moved inwards makes no force

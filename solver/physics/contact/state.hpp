@@ -52,6 +52,11 @@ struct TouchingCouple {
   PairHistory<double> history{};
 };
 
+/// The functions of the contactor's overlap that counted in the last step; of an overlap that the mesh came with all.
+[[nodiscard]] inline OverlapRows sides_of(const PairHistory<double>& history) {
+  return history.sides > 0 ? static_cast<OverlapRows>(history.sides) : kAllRows;
+}
+
 /// Within one point.
 inline void sort_by_contactor(std::span<TouchingCouple> couples) {
   const auto before = [](const TouchingCouple& a, const TouchingCouple& b) { return a.contactor < b.contactor; };
@@ -64,8 +69,11 @@ inline constexpr CornerSets kFractured = 1;
 /// Overlap field of a contactor (geometry/field.hpp).
 struct FieldValues {
   std::array<double, 4> depth{};  ///< m, at its corners, > 0
-  CornerSets sets = 0;            ///< corners on one face of the free surface; kFractured
+  CornerSets sets = 0;            ///< corners on one face of the free surface; kFractured, kExact
   SideRows sides{};               ///< m, at rest (mesh/surface_depth.hpp)
+  std::array<std::array<double, 3>, 4> normal{};  ///< mean outward normals at its corners, at rest
+  /// Whether the overlap is the least distance to the sides of the surface.
+  [[nodiscard]] bool is_exact() const { return (sets & (kExact | kFractured)) == kExact; }
   bool operator==(const FieldValues&) const = default;
 };
 

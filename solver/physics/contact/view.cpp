@@ -1,5 +1,7 @@
 #include "physics/contact/view.hpp"
 
+#include "physics/contact/geometry/outward.hpp"
+
 namespace breccia {
 
 namespace {
@@ -46,11 +48,20 @@ Vec3 ContactView::relative_motion(const ContactPoint& point, Index contactor,
   return dt_ * relative;
 }
 
-Vec3 ContactView::outward_of(const ContactPoint& point, double dt) const {
-  return outward_normal(point, [&](Index node) {
-    const Vec3 x = load_node(state_.position.data(), node);
-    return dt > 0 ? Vec3(x - dt * load_node(state_.velocity.data(), node)) : x;
-  });
+double ContactView::share_of(Index index, Index contactor, const std::array<double, 4>& lambda) const {
+  const ContactPoint& point = this->point(index);
+  const Index own = contact_.contactor_of_slot[at(point.slot)];
+  const bool both_press = own >= 0 && params_.points_everywhere && params_.law(group_of(slot_of(contactor)), group_of(point.slot)).active();
+  if (!both_press || !rules().shares) return 1;
+  return share_of_weight(sharpness(rule_, point, contact_.field[at(own)]),
+                         sharpness(contact_.field[at(contactor)], lambda));
+}
+
+Outward ContactView::outward_of(const ContactPoint& point) const {
+  Outward outward = outward_at(rule_, local_, contact_, point,
+                               [&](Index node) { return load_node(state_.position.data(), node); });
+  if (!rules().corner_normals) outward.corner = Vec3::Zero();
+  return outward;
 }
 
 StepElements::Block& ContactView::prepare_block(Index slot) {
@@ -132,11 +143,6 @@ OverlapFunction ContactView::least_function_of(Index contactor, const std::array
   return {row_value(shape, row, lambda), shape.row[row]};
 }
 
-OverlapRows ContactView::rows_of(const ContactPoint& point, Index contactor, const OverlapShape& shape,
-                                 const PreparedTetra& tetra, double dt) const {
-  return shape.rows < 2 || !has_sides(contactor) ? kAllRows : rows_for(shape, tetra, outward_of(point, dt));
-}
-
 ContactView::Before ContactView::one_step_ago(const ContactPoint& point, Index contactor) const {
   const Index slot = slot_of(contactor);
   const double *x = state_.position.data(), *v = state_.velocity.data();
@@ -144,9 +150,7 @@ ContactView::Before ContactView::one_step_ago(const ContactPoint& point, Index c
   const std::array<Vec3, 4> velocity = load_corners(local_, v, slot);
   for (std::size_t a = 0; a < 4; ++a) corners[a] -= dt_ * velocity[a];
   const PreparedTetra tetra = prepare(corners, local_.volume[at(slot)]);
-  const OverlapShape& shape = shape_of(contactor, Instant::step_before);
-  return {tetra, barycentric(tetra, at_point(rule_, point, x) - dt_ * at_point(rule_, point, v)),
-          inert(tetra) ? kAllRows : rows_of(point, contactor, shape, tetra, dt_)};
+  return {tetra, barycentric(tetra, at_point(rule_, point, x) - dt_ * at_point(rule_, point, v))};
 }
 
 }  // namespace breccia

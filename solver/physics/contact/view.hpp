@@ -44,9 +44,14 @@ class ContactView {
     return params_.law(group_of(this->point(point).slot), group_of(slot_of(contactor)));
   }
   /// Laws and sizes of a couple alone.
-  [[nodiscard]] ContactPair<double> pair_of(Index point, Index contactor) const {
-    return {.law = law_of(point, contactor), .weight = this->point(point).weight, .length = length_of(contactor)};
+  /// @param share  of the weight of the point
+  [[nodiscard]] ContactPair<double> pair_of(Index point, Index contactor, double share) const {
+    return {.law = law_of(point, contactor),
+            .weight = share * this->point(point).weight,
+            .length = length_of(contactor)};
   }
+  /// Share of its weight with which a point begins to press on a contactor (geometry/outward.hpp).
+  [[nodiscard]] double share_of(Index point, Index contactor, const std::array<double, 4>& lambda) const;
   /// s, longest delay of friction (law/lag.hpp).
   [[nodiscard]] double longest_delay(const ContactLaw& law, Index point, Index contactor) const;
   /// Whether two contactors are of one body and share a vertex of its mesh.
@@ -66,8 +71,7 @@ class ContactView {
   /// Motion of the point relative to the contactor's material at lambda during the last step, m.
   [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index contactor,
                                      const std::array<double, 4>& lambda) const;
-  /// Normal of a point's face. @param dt  s, by which the nodes are moved back
-  [[nodiscard]] Vec3 outward_of(const ContactPoint& point, double dt = 0) const;
+  [[nodiscard]] Outward outward_of(const ContactPoint& point) const;
 
   /// The element of a slot where it is now; and with its motion.
   [[nodiscard]] const StepElement& element(Index slot) { return block_with(slot).elements[at(slot % kLanes)]; }
@@ -95,15 +99,11 @@ class ContactView {
   [[nodiscard]] const OverlapShape& shape_of(Index contactor, Instant instant = Instant::now) const;
   /// The overlap function of a contactor that counts at lambda, of all. @pre it is not growing
   [[nodiscard]] OverlapFunction least_function_of(Index contactor, const std::array<double, 4>& lambda) const;
-  /// Those of a contactor's functions that count for a point. @param tetra, dt  by dt ago
-  [[nodiscard]] OverlapRows rows_of(const ContactPoint& point, Index contactor, const OverlapShape& shape,
-                                    const PreparedTetra& tetra, double dt = 0) const;
 
-  /// A contactor, the place of a point in it and what counts for it one step ago, by the field of then.
+  /// A contactor and the place of a point in it one step ago.
   struct Before {
     PreparedTetra tetra;
     std::array<double, 4> lambda;
-    OverlapRows rows;
   };
   [[nodiscard]] Before one_step_ago(const ContactPoint& point, Index contactor) const;
 

@@ -26,7 +26,7 @@ from structures import Arch, Debris, Platens, Seam  # noqa: E402
 from surfaces import Ball, Cubes  # noqa: E402
 
 # Rules that act on the same error, of which one could do the work of both.
-PAIRS = ["closing_pull,remembered_gain", "facing_sides,prefer_facing_side", "facing_sides,far_side",
+PAIRS = ["closing_pull,remembered_gain", "facing_sides,facing_face", "facing_sides,corner_normals",
          "bridge_gaps,first_offset"]
 # Figures below these are as good as none. A figure is worse where it is above that and twice what it is with all rules.
 LEAST = {"gain": 1e-4, "lost": 1e-3, "friction": 2e-3, "unsteady": 0.02, "sideways": 0.01, "failed": 0.5}

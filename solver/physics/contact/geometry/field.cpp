@@ -52,8 +52,43 @@ std::array<double, 4> row_of(const FieldValues& values, const std::array<double,
   return row;
 }
 
+/// Calls f(row) for each side of an element that cannot break: those of its own faces first.
+template <class F>
+void for_each_distance(const FieldValues& values, const std::array<double, 4>& height, F&& f) {
+  for (const std::size_t a : {3, 2, 1, 0}) {
+    if ((values.sets >> (15U ^ 1U << a) & 1) == 0) continue;
+    std::array<double, 4> row{};
+    row[a] = height[a];
+    f(row);
+  }
+  for (std::size_t k = 0; k < num_planes(values.sets); ++k) f(values.sides[k]);
+}
+
+OverlapShape exact_shape(const FieldValues& values, const std::array<double, 4>& height) {
+  OverlapShape shape;
+  for_each_distance(values, height, [&](const std::array<double, 4>& row) { shape.add(row); });
+  if (shape.rows == 0) shape.add(values.depth);
+  return shape;
+}
+
+OverlapFunction least_distance(const FieldValues& values, const std::array<double, 4>& height,
+                               const std::array<double, 4>& lambda) {
+  const auto value = [&](const std::array<double, 4>& row) {
+    return lambda[0] * row[0] + lambda[1] * row[1] + lambda[2] * row[2] + lambda[3] * row[3];
+  };
+  OverlapFunction least{value(values.depth), values.depth};
+  bool first = true;
+  for_each_distance(values, height, [&](const std::array<double, 4>& row) {
+    const double g = value(row);
+    if (first || g < least.g) least = {g, row};
+    first = false;
+  });
+  return least;
+}
+
 OverlapShape body_shape(const ContactParams& params, const std::array<double, 4>& height, const FieldValues& values,
                         const ComingSets* coming) {
+  if (values.is_exact()) return exact_shape(values, height);
   OverlapShape shape;
   bool whole = false;  // a set that counts in full
   const bool has_sides = (values.sets & kFractured) == 0;
@@ -94,7 +129,11 @@ void build_field(const ContactParams& params, const Mesh& mesh, const LocalMesh&
 FieldValues field_at_rest(OverlapField field, const Mesh& mesh, Index element, const SurfaceDepth& surface) {
   FieldValues values;
   if (field != OverlapField::body) return values;
-  for (std::size_t a = 0; a < 4; ++a) values.depth[a] = surface.depth[at(mesh.elements[at(element)][a])];
+  for (std::size_t a = 0; a < 4; ++a) {
+    const Index node = mesh.elements[at(element)][a];
+    values.depth[a] = surface.depth[at(node)];
+    for (std::size_t i = 0; i < 3; ++i) values.normal[a][i] = surface.normal[at(node)][static_cast<Eigen::Index>(i)];
+  }
   values.sets = surface.sets[at(element)];
   values.sides = surface.sides[at(element)];
   return values;
@@ -119,6 +158,7 @@ void advance_field(ContactState& contact) {
 
 OverlapFunction least_function_of_sets(const std::array<double, 4>& height, const FieldValues& values,
                                        const std::array<double, 4>& lambda) {
+  if (values.is_exact()) return least_distance(values, height, lambda);
   std::array<double, 4> by_depth{}, by_height{};
   for (std::size_t a = 0; a < 4; ++a) {
     by_depth[a] = lambda[a] * values.depth[a];

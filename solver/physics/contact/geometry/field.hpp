@@ -18,7 +18,9 @@ namespace breccia {
 ///
 /// Each sum is the distance to the surface that S lies on, exactly so where that is flat and D_a the distance to it: in
 /// a wall one element thick that cannot break, g is the distance to the nearer side. A face of an element that lies on
-/// the surface counts by its distance, D_a or the height above it if that is less. On a face between two elements g
+/// the surface counts by its distance, D_a or the height above it if that is less. In a body that cannot break, g of an
+/// element at the surface is the least of its distances to the sides around it instead (mesh/surface_planes.hpp): exact
+/// beside edges too. On a face between two elements g
 /// depends on the nodes of the face alone, so it is continuous. For a lone tetrahedron g is the distance to its nearest
 /// face.
 ///
@@ -55,10 +57,18 @@ enum class Instant { now, step_before };
          (contact.field[static_cast<std::size_t>(contactor)].sets & kFractured) == 0;
 }
 
+/// Number of an element's faces on the surface.
+[[nodiscard]] inline std::size_t num_faces(CornerSets sets) {
+  const auto bit = [sets](int set) { return static_cast<std::size_t>(sets >> set & 1); };
+  return bit(7) + bit(11) + bit(13) + bit(14);
+}
+
 /// Whether it has more than one.
 [[nodiscard]] inline bool has_several_sides(const ContactParams& params, const ContactState& contact, Index contactor) {
-  const auto sets = static_cast<unsigned>(contact.field[static_cast<std::size_t>(contactor)].sets);
-  return has_sides(params, contact, contactor) && (sets & (sets - 1)) != 0;
+  const CornerSets sets = contact.field[static_cast<std::size_t>(contactor)].sets;
+  if (!has_sides(params, contact, contactor)) return false;
+  return (sets & kExact) == 0 ? (sets & (sets - 1)) != 0
+                              : num_planes(sets) + num_faces(sets) > 1;
 }
 
 /// One of the sums of an element.
@@ -80,7 +90,7 @@ inline constexpr unsigned kSmallSets = ((1U << kNumCornerSets) - 2) & ~kFaceSets
 [[nodiscard]] inline OverlapFunction least_function(const std::array<double, 4>& height, const FieldValues& values,
                                                     const std::array<double, 4>& lambda) {
   const auto sets = static_cast<unsigned>(values.sets);
-  if ((sets & kSmallSets) != 0 || (sets & kFaceSets) == 0) return least_function_of_sets(height, values, lambda);
+  if ((sets & (kSmallSets | kExact)) != 0 || (sets & kFaceSets) == 0) return least_function_of_sets(height, values, lambda);
   // An element that meets the surface with faces alone, as all of what has come apart: each of its sums has one term.
   double least = std::numeric_limits<double>::infinity();
   std::size_t opposite = 0;

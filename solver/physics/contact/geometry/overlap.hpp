@@ -97,7 +97,7 @@ struct Overlap {
 
 /// Some of an element's functions: bit k for the k-th.
 using OverlapRows = std::uint32_t;
-inline constexpr OverlapRows kAllRows = ~OverlapRows{0};
+inline constexpr OverlapRows kAllRows = (1U << kNumCornerSets) - 1;
 
 /// How much the sides of the surface face another face: by the cosine of the angle between their outward normals.
 enum class Facing : std::uint8_t {
@@ -120,8 +120,16 @@ inline constexpr double kWellFacing = 0.1;
   return along >= kBarelyFacing * most ? Facing::barely : Facing::away;
 }
 
-/// Of the depth of an element: a point that is so far behind a side has not just come through it.
-inline constexpr double kFarSide = 0.1;
+/// Directions of the surface at a point, outwards, of any length.
+struct Outward {
+  Vec3 face{0, 0, 0};    ///< normal of its face
+  Vec3 corner{0, 0, 0};  ///< mean normal of the faces around the corner that it is at; zero: it is at none
+};
+
+[[nodiscard]] inline Facing facing(const Outward& outward, const Vec3& inward) {
+  const Facing face = facing(outward.face, inward);
+  return outward.corner == Vec3::Zero() ? face : std::max(face, facing(outward.corner, inward));
+}
 
 /// Some of an element's functions, and how their sides face.
 struct FacingRows {
@@ -129,10 +137,9 @@ struct FacingRows {
   Facing facing = Facing::away;
 };
 
-/// The functions whose side of the surface faces a given face the most; none if all face away.
-/// @param outward  normal of the face, of any length
+/// The functions whose side of the surface faces a point the most; none if all face away.
 [[nodiscard]] inline FacingRows rows_facing(const OverlapShape& shape, const PreparedTetra& tetra,
-                                            const Vec3& outward) {
+                                            const Outward& outward) {
   FacingRows most;
   for (std::size_t k = 0; k < shape.rows; ++k) {
     const Facing here = facing(outward, side_gradient(shape, k, tetra));
@@ -142,11 +149,10 @@ struct FacingRows {
   return most;
 }
 
-/// The functions that apply to a point on a face, where sides are distinguished: those whose side faces it the most,
+/// The functions that apply to a point, where sides are distinguished: those whose side faces it the most,
 /// through which the point enters, also just beside an edge, where another side is nearer; all where there is none. Not
 /// for elements at cracks, whose new sides would produce energy if they were distinguished.
-/// @param outward  as above
-[[nodiscard]] inline OverlapRows rows_for(const OverlapShape& shape, const PreparedTetra& tetra, const Vec3& outward) {
+[[nodiscard]] inline OverlapRows rows_for(const OverlapShape& shape, const PreparedTetra& tetra, const Outward& outward) {
   const FacingRows most = rows_facing(shape, tetra, outward);
   return most.rows != 0 ? most.rows : kAllRows;
 }

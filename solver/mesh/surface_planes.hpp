@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/corner_sets.hpp"
+#include "mesh/faces_at_nodes.hpp"
+#include "mesh/free_faces.hpp"
+#include "mesh/mesh.hpp"
+
+namespace breccia {
+
+/// Sides of the free surface that an element of a body that cannot break meets: its own free faces, and those of its
+/// neighbours around an edge or a corner of it.
+struct SurfacePlanes {
+  std::size_t count = 0;  ///< of rows
+  SideRows rows{};        ///< m, how far the corners lie behind each side but those of the element's own free faces
+};
+
+/// Neighbouring faces whose normals differ by less than 30 degrees are one side: a row has the least of the distances
+/// to their planes, so it is exact where the side is flat. A side that its own free face continues has no row. Where the
+/// body reaches before a side, as at a reentrant edge, the distance is not that to its plane: the row has the depths
+/// of the nodes. Of more than kMostSides rows those of edges come first.
+/// @param faces   all free faces; `around` is made of them;  @param depth  (mesh nodes) m. O(faces around^2)
+[[nodiscard]] SurfacePlanes surface_planes(const Mesh& mesh, Index element, std::span<const FreeFace> faces,
+                                           const FacesAtNodes& around, std::span<const double> depth);
+
+/// Outward unit normal.
+[[nodiscard]] Vec3 normal_of(const Mesh& mesh, const FreeFace& face);
+
+}  // namespace breccia
