@@ -22,8 +22,8 @@ void for_each_set(CornerSets sets, F&& f) {
 }
 
 /// How far each corner of an element lies behind some sides of the surface, m: those of its sets of one or two corners,
-/// ascending, all zero where there is none; with kExact, as many as num_planes() says, each a function of the overlap.
-/// No element of six meshes with 54,000 had more than four sets of one or two corners; what is beyond has none.
+/// ascending, all zero where there is none; with kExact num_planes() of them, each a function of the overlap.
+/// Further ones are left out.
 inline constexpr std::size_t kMostSides = 6;
 using SideRows = std::array<std::array<double, 4>, kMostSides>;
 
@@ -31,7 +31,9 @@ using SideRows = std::array<std::array<double, 4>, kMostSides>;
 /// around it (mesh/surface_planes.hpp) and not made of the sets.
 inline constexpr CornerSets kExact = 1 << kNumCornerSets;
 inline constexpr int kPlanesBit = 16;
-[[nodiscard]] constexpr CornerSets with_planes(std::size_t count) { return static_cast<CornerSets>(count) << kPlanesBit; }
+[[nodiscard]] constexpr CornerSets with_planes(std::size_t count) {
+  return static_cast<CornerSets>(count) << kPlanesBit;
+}
 [[nodiscard]] constexpr std::size_t num_planes(CornerSets sets) { return static_cast<std::size_t>(sets) >> kPlanesBit; }
 
 /// Calls f(m, place among the sets of one or two corners, or -1) for every set, ascending.

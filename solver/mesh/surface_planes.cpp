@@ -27,7 +27,8 @@ struct SeenFace {
 std::vector<SeenFace> faces_around(const Mesh& mesh, const std::array<Index, 4>& corners,
                                    std::span<const FreeFace> faces, const FacesAtNodes& around) {
   std::vector<Index> found;
-  for (const Index corner : corners) found.insert(found.end(), around.at_node(corner).begin(), around.at_node(corner).end());
+  for (const Index corner : corners)
+    found.insert(found.end(), around.at_node(corner).begin(), around.at_node(corner).end());
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   std::vector<SeenFace> seen;
@@ -38,9 +39,8 @@ std::vector<SeenFace> faces_around(const Mesh& mesh, const std::array<Index, 4>&
       if (std::find(face.begin(), face.end(), corners[c]) != face.end()) here.set |= 1U << c;
     }
   }
-  std::stable_sort(seen.begin(), seen.end(), [](const SeenFace& a, const SeenFace& b) {
-    return std::popcount(a.set) > std::popcount(b.set);
-  });
+  std::stable_sort(seen.begin(), seen.end(),
+                   [](const SeenFace& a, const SeenFace& b) { return std::popcount(a.set) > std::popcount(b.set); });
   return seen;
 }
 
@@ -75,7 +75,8 @@ std::vector<Side> sides_beside(const std::vector<SeenFace>& seen, double toleran
       return std::popcount(own.set) == 3 && (own.set & face.set) == face.set && own.normal.dot(face.normal) > kSmooth;
     });
     if (is_own) continue;
-    auto side = std::find_if(sides.begin(), sides.end(), [&](const Side& s) { return s.continues_in(face, tolerance); });
+    auto side =
+        std::find_if(sides.begin(), sides.end(), [&](const Side& s) { return s.continues_in(face, tolerance); });
     if (side == sides.end()) side = sides.insert(sides.end(), Side{});
     side->add(face);
   }

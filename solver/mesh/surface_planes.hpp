@@ -18,9 +18,9 @@ struct SurfacePlanes {
 };
 
 /// Neighbouring faces whose normals differ by less than 30 degrees are one side: a row has the least of the distances
-/// to their planes, so it is exact where the side is flat. A side that its own free face continues has no row. Where the
-/// body reaches before a side, as at a reentrant edge, the distance is not that to its plane: the row has the depths
-/// of the nodes. Of more than kMostSides rows those of edges come first.
+/// to their planes, so it is exact where the side is flat. A side that its own free face continues has no row. Where
+/// the body reaches before a side, as at a reentrant edge, the distance is not that to its plane: the row has the
+/// depths of the nodes. Of more than kMostSides rows those of edges come first.
 /// @param faces   all free faces; `around` is made of them;  @param depth  (mesh nodes) m. O(faces around^2)
 [[nodiscard]] SurfacePlanes surface_planes(const Mesh& mesh, Index element, std::span<const FreeFace> faces,
                                            const FacesAtNodes& around, std::span<const double> depth);

@@ -111,15 +111,15 @@ template <class Vector>
 }
 
 /// Force of a couple whose overlap has ended, N: returns energy that it has taken too much, or that it still stores as
-/// its point has left across an edge, as a slope beyond the edge would. A mass that the time step allows at this
-/// stiffness takes no more than that in this step and the next one: with k dt^2 <= m the next motion is at most F / k
-/// longer. None where the point comes back, or where there is next to nothing to return.
+/// its point has left across an edge, as a slope beyond the edge would. A stable step allows k dt^2 <= 4 m: the next
+/// motion is at most 4 F / k longer, so that no more is returned than is missing. None where the point comes back, or
+/// where there is next to nothing to return.
 /// @param missing  J;  @param outward  unit vector;  @param k  N/m
 template <class Vector>
 [[nodiscard]] Vector opening_force(double missing, const Vector& outward, const Vector& motion, double k) {
   const double out = outward.dot(motion);
   if (!(out > 0) || !(missing > 0.5 * kNegligibleWorkError * largest_pull(k, out) * out)) return Vector::Zero();
-  return k * (std::sqrt(out * out + 2 * missing / k) - out) * outward;
+  return 0.25 * k * (std::sqrt(out * out + 8 * missing / k) - out) * outward;
 }
 
 }  // namespace breccia

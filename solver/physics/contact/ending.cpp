@@ -68,9 +68,7 @@ EndedCouples::Escape EndedCouples::escape_of(const TouchingCouple& old, const Co
   const Index contactor = old.contactor;
   // By the sides of the last step: those of now may be others, where a body rolls and a side has turned away.
   const bool has_sides = view_.has_sides(contactor);
-  const auto depth_by_sides = [&] {
-    return overlap_value(view_.shape_of(contactor), lambda, sides_of(old.history));
-  };
+  const auto depth_by_sides = [&] { return overlap_value(view_.shape_of(contactor), lambda, sides_of(old.history)); };
   const double overlap = has_sides                     ? depth_by_sides()
                          : view_.is_growing(contactor) ? overlap_value(view_.shape_of(contactor), lambda)
                                                        : view_.least_function_of(contactor, lambda).g;
@@ -126,9 +124,8 @@ Vec3 EndedCouples::pull(const ContactPair<double>& pair, const PairHistory<doubl
 
 Vec3 EndedCouples::push(const ContactPair<double>& pair, const Vec3& outward, const Vec3& motion,
                         PairHistory<double>& h) const {
-  h.force = outward != Vec3::Zero()
-                ? opening_force(-h.gained, Vec3(outward.normalized()), motion, pair.stiffness())
-                : Vec3(Vec3::Zero());
+  h.force = outward != Vec3::Zero() ? opening_force(-h.gained, Vec3(outward.normalized()), motion, pair.stiffness())
+                                    : Vec3(Vec3::Zero());
   return account_force(motion, h);
 }
 

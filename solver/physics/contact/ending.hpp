@@ -22,9 +22,10 @@ class EndedCouples {
   EndedCouples(ContactView& view, ContactState& contact, ContactWork& work)
       : view_(view), contact_(contact), work_(work) {}
 
-  /// A couple that no candidate continues: the stored energy of the normal law was returned as work, or is dissipated, or
-  /// is returned by a push where the point has left across an edge; the spring is released. What is left of it, if anything, is appended to ContactState::touching, and its force to
-  /// forces(). @param lost  J, by the normal law in this step
+  /// A couple that no candidate continues: the stored energy of the normal law was returned as work, or is returned by
+  /// a push where the point has left across an edge, or is dissipated where a crack has opened; the spring is released.
+  /// What is left of it, if anything, is appended to ContactState::touching, and its force to forces().
+  /// @param lost  J, by the normal law in this step
   void end(const TouchingCouple& old, double lost = 0);
 
   /// A couple exerts no force by its law any more: the pull that removes what it has gained, N.

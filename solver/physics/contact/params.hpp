@@ -32,7 +32,7 @@ enum class InitialOverlap {
 
 /// What the contact kernels need to know; the same all through a run.
 struct ContactParams {
-  int points_per_face = 4;  ///< 1, 3, 4 or 6
+  int points_per_face = 4;        ///< 1, 3, 4 or 6
   bool points_everywhere = true;  ///< on all free faces, not on some surfaces alone
   OverlapField field = OverlapField::body;
   int ramp_steps = 50;           ///< >= 1: steps in which the overlap field follows a new free surface

@@ -35,8 +35,8 @@ Candidate Resolver::candidate_of(const ContactPoint& point, Index contactor,
   return candidate;
 }
 
-/// The functions of a contactor that count for a point: as long as it presses those that counted before, so that no side
-/// comes or goes while bodies turn, otherwise those whose sides face the point.
+/// The functions of a contactor that count for a point: as long as it presses those that counted before, so that no
+/// side comes or goes while bodies turn, otherwise those whose sides face the point.
 OverlapRows Resolver::sides_for(const ContactPoint& point, Index contactor) const {
   if (!view_.has_several_sides(contactor)) return kAllRows;
   const std::vector<TouchingCouple>& old = contact_.touching_before;
@@ -237,11 +237,11 @@ void Resolver::switch_gradient(const ContactPoint& point, const Candidate& candi
   now.overlap_before -= beyond - turned;
 }
 
-/// Whether the side that counts does not face the face of the point: at the front of a block, where a point of the floor
-/// enters an element above the lower edge, a force would stop the block, which slides over the point; a point at the
-/// lower end of the front has the faces below it, whose points press. Without motion the positions are initial ones.
+/// Whether the side that counts does not face the face of the point: at the front of a block, where a point of the
+/// floor enters an element above the lower edge, a force would stop the block, which slides over the point; for a point
+/// at the lower end of the front the points of the faces below press. Of initial positions this is not known.
 bool Resolver::comes_from_beside(const ContactPoint& point, const Candidate& candidate, const Vec3& motion) const {
-  if (motion == Vec3::Zero()) return false;
+  if (candidate.old < 0 && motion == Vec3::Zero()) return false;
   const OverlapShape& shape = view_.shape_of(candidate.contactor, Instant::step_before);
   const std::size_t least = least_row(shape, candidate.lambda, candidate.rows);
   const Vec3 inward = side_gradient(shape, least, view_.tetra_of(candidate.contactor));

@@ -73,8 +73,7 @@ class Resolver {
                                     const Vec3& gradient) const;
   void switch_gradient(const ContactPoint& point, const Candidate& candidate, const TouchingCouple& old,
                        const Vec3& motion, const Vec3& gradient, Adjusted& now) const;
-  [[nodiscard]] bool comes_from_beside(const ContactPoint& point, const Candidate& candidate,
-                                       const Vec3& motion) const;
+  [[nodiscard]] bool comes_from_beside(const ContactPoint& point, const Candidate& candidate, const Vec3& motion) const;
   [[nodiscard]] Vec3 gradient_before(const Candidate& candidate, const Vec3& gradient) const;
   [[nodiscard]] bool is_fresh(const ContactCouple& couple) const;
 

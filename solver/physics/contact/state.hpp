@@ -68,9 +68,9 @@ inline constexpr CornerSets kFractured = 1;
 
 /// Overlap field of a contactor (geometry/field.hpp).
 struct FieldValues {
-  std::array<double, 4> depth{};  ///< m, at its corners, > 0
-  CornerSets sets = 0;            ///< corners on one face of the free surface; kFractured, kExact
-  SideRows sides{};               ///< m, at rest (mesh/surface_depth.hpp)
+  std::array<double, 4> depth{};                  ///< m, at its corners, > 0
+  CornerSets sets = 0;                            ///< corners on one face of the free surface; kFractured, kExact
+  SideRows sides{};                               ///< m, at rest (mesh/surface_depth.hpp)
   std::array<std::array<double, 3>, 4> normal{};  ///< mean outward normals at its corners, at rest
   /// Whether the overlap is the least distance to the sides of the surface.
   [[nodiscard]] bool is_exact() const { return (sets & (kExact | kFractured)) == kExact; }

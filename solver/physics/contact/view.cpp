@@ -51,15 +51,16 @@ Vec3 ContactView::relative_motion(const ContactPoint& point, Index contactor,
 double ContactView::share_of(Index index, Index contactor, const std::array<double, 4>& lambda) const {
   const ContactPoint& point = this->point(index);
   const Index own = contact_.contactor_of_slot[at(point.slot)];
-  const bool both_press = own >= 0 && params_.points_everywhere && params_.law(group_of(slot_of(contactor)), group_of(point.slot)).active();
+  const bool both_press =
+      own >= 0 && params_.points_everywhere && params_.law(group_of(slot_of(contactor)), group_of(point.slot)).active();
   if (!both_press || !rules().shares) return 1;
   return share_of_weight(sharpness(rule_, point, contact_.field[at(own)]),
                          sharpness(contact_.field[at(contactor)], lambda));
 }
 
 Outward ContactView::outward_of(const ContactPoint& point) const {
-  Outward outward = outward_at(rule_, local_, contact_, point,
-                               [&](Index node) { return load_node(state_.position.data(), node); });
+  Outward outward =
+      outward_at(rule_, local_, contact_, point, [&](Index node) { return load_node(state_.position.data(), node); });
   if (!rules().corner_normals) outward.corner = Vec3::Zero();
   return outward;
 }

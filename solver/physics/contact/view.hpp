@@ -46,9 +46,8 @@ class ContactView {
   /// Laws and sizes of a couple alone.
   /// @param share  of the weight of the point
   [[nodiscard]] ContactPair<double> pair_of(Index point, Index contactor, double share) const {
-    return {.law = law_of(point, contactor),
-            .weight = share * this->point(point).weight,
-            .length = length_of(contactor)};
+    return {
+        .law = law_of(point, contactor), .weight = share * this->point(point).weight, .length = length_of(contactor)};
   }
   /// Share of its weight with which a point begins to press on a contactor (geometry/outward.hpp).
   [[nodiscard]] double share_of(Index point, Index contactor, const std::array<double, 4>& lambda) const;

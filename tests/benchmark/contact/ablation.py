@@ -2,6 +2,7 @@
 
 usage: ablation.py BENCH_CONTACT FOLDER [--without NAME[,NAME] ...] [--experiments NAME ...] [--jobs N] [--long]
                    [--keep] [--no-count]
+       ablation.py BENCH_CONTACT FOLDER --all-rules [--experiments NAME ...]
        ablation.py BENCH_CONTACT FOLDER --check BRECCIA [--one-each]
 
 Writes table.md and table.csv into the folder, and the results of every run. A figure that is clearly worse than with
@@ -209,6 +210,8 @@ def main():
     parser.add_argument("folder", type=pathlib.Path, help="where cases and tables go")
     parser.add_argument("--without", action="append",
                         help="a row: rules that are off; default: each of bench_contact --rules, and pairs")
+    parser.add_argument("--all-rules", action="store_true",
+                        help="that row alone; exit code 1 where an experiment fails")
     parser.add_argument("--experiments", nargs="+", help="those alone; default: all")
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time")
     parser.add_argument("--long", action="store_true", help="more random cases, a longer fall of debris")
@@ -222,9 +225,12 @@ def main():
         sys.exit(1 if check(arguments.check, chosen, arguments.folder, arguments.one_each) else 0)
     rules = subprocess.run([arguments.bench, "--rules"], capture_output=True, text=True, check=True).stdout.split()
     pairs = [pair for pair in PAIRS if set(pair.split(",")) <= set(rules)]
-    rows = [ALL, *(arguments.without or [*rules, *pairs])]
+    rows = [ALL] if arguments.all_rules else [ALL, *(arguments.without or [*rules, *pairs])]
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    write_tables(arguments.folder, rows, chosen, measure(arguments, rows, chosen))
+    found = measure(arguments, rows, chosen)
+    write_tables(arguments.folder, rows, chosen, found)
+    if arguments.all_rules:
+        sys.exit(1 if any(figures["failures"] for figures in found.values()) else 0)
 
 
 if __name__ == "__main__":

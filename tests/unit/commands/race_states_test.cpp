@@ -55,7 +55,7 @@ const std::string kTwoBoxesMeet = test::raster_case({.title = "two boxes meet",
 [[initial_velocity]]
 group = "box"
 random = ["2 m/s", "4 m/s"]
-seed = 3
+seed = 5
 [sphere]
 centre = ["10 mm", "5 mm", "5 mm"]
 radius = "16 mm"

@@ -63,7 +63,7 @@ TEST(SurfaceDepth, NamesTheCornersOfAnElementThatLieOnOneFreeFace) {
 TEST(SurfaceDepth, KnowsHowTheSurfaceLiesAroundAnEdgeOrACornerOfAnElement) {
   const Vec3 size(3 * 1.0, 2 * 0.75, 2 * 1.25);
   const Mesh box = test::raster_box({3, 2, 2}).mesh;
-  const SurfaceDepth depth = surface_depth(kWhole, box, build_topology(box));
+  const SurfaceDepth depth = surface_depth({true}, box, build_topology(box));
   int tested = 0;
   for (Index e = 0; e < box.num_elements(); ++e) {
     for_each_side(depth.sets[at(e)], [&](unsigned set, int place) {
@@ -84,6 +84,61 @@ TEST(SurfaceDepth, KnowsHowTheSurfaceLiesAroundAnEdgeOrACornerOfAnElement) {
     });
   }
   EXPECT_GT(tested, 100);
+}
+
+TEST(SurfaceDepth, OfAnElementThatCannotBreakHasTheDistancesToAllSidesThatItMeets) {
+  const Vec3 size(3 * 1.0, 2 * 0.75, 2 * 1.25);
+  const Mesh box = test::raster_box({3, 2, 2}).mesh;
+  const SurfaceDepth depth = surface_depth(kWhole, box, build_topology(box));
+  int exact = 0;
+  for (Index e = 0; e < box.num_elements(); ++e) {
+    std::array<std::array<double, 4>, 6> behind{};  // sides of the box: lower and upper, axis by axis
+    std::size_t met = 0, own = 0;
+    for (std::size_t side = 0; side < 6; ++side) {
+      const auto axis = static_cast<Eigen::Index>(side / 2);
+      int on = 0;
+      for (int c = 0; c < 4; ++c) {
+        const double x = test::node_of(box, e, c)[axis];
+        behind[side][at(c)] = side % 2 == 0 ? x : size[axis] - x;
+        on += behind[side][at(c)] < kRoundOff ? 1 : 0;
+      }
+      met += on > 0 ? 1 : 0;
+      own += on == 3 ? 1 : 0;
+    }
+    const CornerSets sets = depth.sets[at(e)];
+    EXPECT_EQ((sets & kExact) != 0, met > 0);
+    if (met == 0) continue;
+    ASSERT_EQ(num_planes(sets), met - own) << "element " << e;
+    for (std::size_t k = 0; k < num_planes(sets); ++k) {
+      const bool is_side = std::any_of(behind.begin(), behind.end(), [&](const std::array<double, 4>& side) {
+        double off = 0;
+        for (std::size_t c = 0; c < 4; ++c) off = std::max(off, std::abs(side[c] - depth.sides[at(e)][k][c]));
+        return off < kRoundOff;
+      });
+      EXPECT_TRUE(is_side) << "element " << e;
+      ++exact;
+    }
+  }
+  EXPECT_GT(exact, 100);
+}
+
+TEST(SurfaceDepth, HasMeanNormalsThatDoNotDependOnHowSidesAreCutIntoTriangles) {
+  const Vec3 size(3 * 1.0, 2 * 0.75, 2 * 1.25);
+  Mesh box = test::raster_box({3, 2, 2}).mesh;
+  for (Vec3& x : box.nodes) {  // unevenly, along each side
+    for (int i = 0; i < 3; ++i) x[i] += 0.05 * std::sin(5 * x[(i + 1) % 3]) * x[i] * (size[i] - x[i]);
+  }
+  const SurfaceDepth depth = surface_depth(kWhole, box, build_topology(box));
+  for (std::size_t n = 0; n < box.nodes.size(); ++n) {
+    Vec3 expected = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+      if (box.nodes[n][i] < kRoundOff) expected[i] = -1;
+      if (box.nodes[n][i] > size[i] - kRoundOff) expected[i] = 1;
+    }
+    const double sides = expected.cwiseAbs().sum();
+    if (sides > 0) expected /= sides;
+    EXPECT_NEAR((depth.normal[n] - expected).norm(), 0, 1e-9) << box.nodes[n].transpose();
+  }
 }
 
 TEST(SurfaceDepth, OfANodeOnTheSurfaceIsWhatLiesBehindIt) {

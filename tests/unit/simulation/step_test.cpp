@@ -180,7 +180,7 @@ TEST(Step, GivesTheFacesOfReleasedJointsToContactAStepLater) {
   ASSERT_EQ(cubes.domain.state.joints.released.size(), 4u) << "after " << steps << " steps";
   EXPECT_EQ(cubes.domain.state.contact.points.size(), points);
   step(cubes.domain);
-  EXPECT_EQ(cubes.domain.state.contact.points.size(), points + 2 * 4 * 3) << "three points a face, both sides";
+  EXPECT_EQ(cubes.domain.state.contact.points.size(), points + 2 * 4 * 4) << "four points a face, both sides";
 }
 
 }  // namespace

@@ -67,8 +67,7 @@ enum class Instant { now, step_before };
 [[nodiscard]] inline bool has_several_sides(const ContactParams& params, const ContactState& contact, Index contactor) {
   const CornerSets sets = contact.field[static_cast<std::size_t>(contactor)].sets;
   if (!has_sides(params, contact, contactor)) return false;
-  return (sets & kExact) == 0 ? (sets & (sets - 1)) != 0
-                              : num_planes(sets) + num_faces(sets) > 1;
+  return (sets & kExact) == 0 ? (sets & (sets - 1)) != 0 : num_planes(sets) + num_faces(sets) > 1;
 }
 
 /// One of the sums of an element.
@@ -90,7 +89,8 @@ inline constexpr unsigned kSmallSets = ((1U << kNumCornerSets) - 2) & ~kFaceSets
 [[nodiscard]] inline OverlapFunction least_function(const std::array<double, 4>& height, const FieldValues& values,
                                                     const std::array<double, 4>& lambda) {
   const auto sets = static_cast<unsigned>(values.sets);
-  if ((sets & (kSmallSets | kExact)) != 0 || (sets & kFaceSets) == 0) return least_function_of_sets(height, values, lambda);
+  if ((sets & (kSmallSets | kExact)) != 0 || (sets & kFaceSets) == 0)
+    return least_function_of_sets(height, values, lambda);
   // An element that meets the surface with faces alone, as all of what has come apart: each of its sums has one term.
   double least = std::numeric_limits<double>::infinity();
   std::size_t opposite = 0;

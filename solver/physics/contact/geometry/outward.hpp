@@ -25,7 +25,8 @@ template <class Place>
   const int corner = corner_of(rule, point);
   const Index own = corner < 0 ? -1 : contact.contactor_of_slot[static_cast<std::size_t>(point.slot)];
   if (own < 0) return outward;
-  const std::array<double, 3>& n = contact.field[static_cast<std::size_t>(own)].normal[static_cast<std::size_t>(corner)];
+  const std::array<double, 3>& n =
+      contact.field[static_cast<std::size_t>(own)].normal[static_cast<std::size_t>(corner)];
   std::array<Vec3, 4> x;
   for (int a = 0; a < 4; ++a) x[static_cast<std::size_t>(a)] = place(local.corner_node(point.slot, a));
   outward.corner = -turned_inwards(Vec3(n[0], n[1], n[2]), local, point.slot, x);

@@ -152,7 +152,8 @@ struct FacingRows {
 /// The functions that apply to a point, where sides are distinguished: those whose side faces it the most,
 /// through which the point enters, also just beside an edge, where another side is nearer; all where there is none. Not
 /// for elements at cracks, whose new sides would produce energy if they were distinguished.
-[[nodiscard]] inline OverlapRows rows_for(const OverlapShape& shape, const PreparedTetra& tetra, const Outward& outward) {
+[[nodiscard]] inline OverlapRows rows_for(const OverlapShape& shape, const PreparedTetra& tetra,
+                                          const Outward& outward) {
   const FacingRows most = rows_facing(shape, tetra, outward);
   return most.rows != 0 ? most.rows : kAllRows;
 }

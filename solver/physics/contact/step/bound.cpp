@@ -6,46 +6,47 @@ namespace breccia {
 
 namespace {
 
-using Linear = ContactBound::Linear;
-
-/// Of the points of one patch that press on another, a rate for each of their shares of the weight.
-/// @param stiffness  Pa/m or Pa s/m;  @param of_p  the points are those of p
-Linear bound_of_points(const ContactPatch& p, const ContactPatch& q, double factor, bool of_p) {
-  const double weight_of_p = of_p ? p.largest[ContactPatch::weight] : 0.0;
-  const double weight_of_q = of_p ? 0.0 : q.largest[ContactPatch::weight];
-  return {.by_area = factor,
-          .by_per_mass = factor * weight_of_q,
-          .rest = factor * (q.largest[ContactPatch::area_over_mass] + weight_of_p * q.largest[ContactPatch::per_mass])};
-}
-
-/// Where both directions press their shares add up to two (geometry/outward.hpp): twice the larger bound.
-Linear both(const Linear& a, const Linear& b) {
-  return {2 * std::max(a.by_area, b.by_area), 2 * std::max(a.by_per_mass, b.by_per_mass),
-          2 * std::max(a.rest, b.rest)};
+/// Of the points of one of the patches on the other, for a whole weight.
+/// @param of_p  the points are those of p
+ContactBound bound_of_points(const ContactParams& params, const ContactPatch& p, const ContactPatch& q, bool of_p) {
+  const ContactPatch &points = of_p ? p : q, &entered = of_p ? q : p;
+  ContactBound m;
+  m.against = static_cast<Index>(q.group);
+  const ContactLaw& law = params.law(static_cast<Index>(points.group), static_cast<Index>(entered.group));
+  const double weight = points.largest[ContactPatch::weight];
+  if (!(weight > 0)) return m;
+  const auto linear = [&](double factor) {
+    const double far =
+        q.largest[ContactPatch::area_over_mass] + (of_p ? weight * q.largest[ContactPatch::per_mass] : 0);
+    return ContactBound::Linear{factor, of_p ? 0.0 : factor * weight, factor * far};
+  };
+  const double steepness = entered.largest[ContactPatch::steepness];
+  m.sum = linear(stiffest_slope(law) * entered.largest[ContactPatch::per_length] * steepness);
+  m.decay = linear(law.damping * steepness);
+  return m;
 }
 
 }  // namespace
 
-ContactBound contact_bound(const ContactParams& params, const ContactPatch& p, const ContactPatch& q) {
-  ContactBound m;
-  m.against = static_cast<Index>(q.group);
-  const auto add = [&](const ContactPatch& points, const ContactPatch& entered, bool of_p) {
-    const ContactLaw& law = params.law(static_cast<Index>(points.group), static_cast<Index>(entered.group));
-    if (!(points.largest[ContactPatch::weight] > 0) || !law.active()) return;
-    const double steepness = entered.largest[ContactPatch::steepness];
-    const double factor = stiffest_slope(law) * entered.largest[ContactPatch::per_length] * steepness;
-    const bool is_second = m.sum.by_area > 0;
-    const Linear sum = bound_of_points(p, q, factor, of_p), decay = bound_of_points(p, q, law.damping * steepness, of_p);
-    m.sum = is_second ? both(m.sum, sum) : sum;
-    m.decay = is_second ? both(m.decay, decay) : decay;
-  };
-  add(p, q, true);
-  add(q, p, false);
-  return m;
+std::array<ContactBound, 2> contact_bounds(const ContactParams& params, const ContactPatch& p, const ContactPatch& q) {
+  std::array<ContactBound, 2> bounds{bound_of_points(params, p, q, true), bound_of_points(params, p, q, false)};
+  const auto presses = [](const ContactBound& m) { return m.sum.by_area > 0; };
+  if (presses(bounds[0]) && presses(bounds[1])) {
+    for (ContactBound& m : bounds) m *= 2;
+  }
+  return bounds;
 }
 
 bool dominated(const ContactBound& bound, const std::vector<ContactBound>& bounds) {
   return std::any_of(bounds.begin(), bounds.end(), [&](const ContactBound& m) { return m.dominates(bound); });
+}
+
+bool dominated(const std::array<ContactBound, 2>& both, const std::vector<ContactBound>& bounds) {
+  return dominated(both[0], bounds) && dominated(both[1], bounds);
+}
+
+void add_bounds(const std::array<ContactBound, 2>& made, std::vector<ContactBound>& bounds) {
+  for (const ContactBound& m : made) add_bound(m, bounds);
 }
 
 void add_bound(const ContactBound& made, std::vector<ContactBound>& bounds) {

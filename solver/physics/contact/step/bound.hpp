@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -15,6 +16,12 @@ struct ContactBound {
     [[nodiscard]] double operator()(double area_over_mass, double per_mass) const {
       return by_area * area_over_mass + by_per_mass * per_mass + rest;
     }
+    Linear& operator*=(double factor) {
+      by_area *= factor;
+      by_per_mass *= factor;
+      rest *= factor;
+      return *this;
+    }
     [[nodiscard]] bool dominates(const Linear& other) const {
       return by_area >= other.by_area && by_per_mass >= other.by_per_mass && rest >= other.rest;
     }
@@ -22,6 +29,11 @@ struct ContactBound {
   Linear sum, decay;
   Index against = 0;  ///< group
 
+  ContactBound& operator*=(double factor) {
+    sum *= factor;
+    decay *= factor;
+    return *this;
+  }
   /// Whether this is at least as large as the other for every node.
   [[nodiscard]] bool dominates(const ContactBound& other) const {
     return sum.dominates(other.sum) && decay.dominates(other.decay);
@@ -38,14 +50,19 @@ struct ContactBound {
   }
 };
 
-/// Of the nodes of patch p in contact with patch q.
-[[nodiscard]] ContactBound contact_bound(const ContactParams& params, const ContactPatch& p, const ContactPatch& q);
+/// Of the nodes of patch p in contact with patch q: what the points of p add and what those of q add. Where both press
+/// the shares of their weights add up to two (geometry/outward.hpp): each is doubled, and the larger one counts.
+[[nodiscard]] std::array<ContactBound, 2> contact_bounds(const ContactParams& params, const ContactPatch& p,
+                                                         const ContactPatch& q);
 
 /// Whether any of the list is at least as large as the bound for every node.
 [[nodiscard]] bool dominated(const ContactBound& bound, const std::vector<ContactBound>& bounds);
+/// Whether this holds for both.
+[[nodiscard]] bool dominated(const std::array<ContactBound, 2>& both, const std::vector<ContactBound>& bounds);
 
 /// Keeps a list of bounds that do not dominate each other; for every node its largest share is that of all bounds ever
 /// added. Of equal ones the first stays. O(bounds)
 void add_bound(const ContactBound& made, std::vector<ContactBound>& bounds);
+void add_bounds(const std::array<ContactBound, 2>& made, std::vector<ContactBound>& bounds);
 
 }  // namespace breccia

@@ -119,7 +119,7 @@ PatchesNearby::PatchesNearby(const ContactParams& params, std::span<const Patch>
 
 std::vector<ContactBound> PatchesNearby::bounds_anywhere(const Patch& patch) const {
   std::vector<ContactBound> found;
-  for (const Patch& group : of_groups_) add_bound(contact_bound(params_, patch, group), found);
+  for (const Patch& group : of_groups_) add_bounds(contact_bounds(params_, patch, group), found);
   return found;
 }
 
@@ -128,14 +128,14 @@ std::vector<ContactBound> PatchesNearby::bounds(std::size_t p) {
   const Patch& mine = patches_[p];
   std::vector<ContactBound> found;
   const auto adds_nothing = [&](const Patch& other) {
-    return !found.empty() && other.group != kSeveral && dominated(contact_bound(params_, mine, other), found);
+    return !found.empty() && other.group != kSeveral && dominated(contact_bounds(params_, mine, other), found);
   };
   tree_->tree.query(
       tree_->boxes[p], [&](std::size_t node) { return adds_nothing(tree_->largest[node]); },
       [&](std::int32_t place) {
         const Patch& other = patches_[static_cast<std::size_t>(place)];
         if (!adds_nothing(other) && may_meet(params_, mine, other, time_))
-          add_bound(contact_bound(params_, mine, other), found);
+          add_bounds(contact_bounds(params_, mine, other), found);
       });
   return found;
 }

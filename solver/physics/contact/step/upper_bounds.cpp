@@ -42,7 +42,7 @@ void ContactUpperBounds::update() {
     Group& group = groups_[g];
     const std::array<double, ContactPatch::count>& numbers = patches[g].largest;
     group.bounds.clear();
-    for (const ContactPatch& other : patches) add_bound(contact_bound(params, patches[g], other), group.bounds);
+    for (const ContactPatch& other : patches) add_bounds(contact_bounds(params, patches[g], other), group.bounds);
     group.wall = params.sphere ? params.sphere->penalty * numbers[ContactPatch::per_length] : 0.0;
     group.most = share(group, numbers[ContactPatch::area_over_mass], numbers[ContactPatch::per_mass]);
   }

@@ -183,12 +183,14 @@ TEST(Collision, OfElasticCubesKeepsMomentaToRoundOffAndEnergyToHalfAPercent) {
 
 TEST(Collision, AtHalfOfTheStableStepReturnsWhatContactTookAndNoMore) {
   constexpr double kLong = 10 * kStep;
-  constexpr double kGain = 1.5e-3;  // nodes share the force of a point as it lies at the end of a step: 1.04e-3 at most
-  constexpr double kLoss = 0.03;    // points that leave over an edge, along another way than they came
-  // The mean of 100 is 0.0073 without and 0.0043 with friction; 0.015 where a force begins with all that the law gives
-  // at the end of the step. One of them, with friction, gains 6.4e-3: the limits above are those of the first twelve.
-  constexpr double kMeanLoss = 0.0085, kGainOfAny = 8e-3;
-  constexpr std::uint64_t kSeeds = 12, kMean = 100;
+  // Nodes share the force of a point as it lies at the end of a step: 1.04e-3 without friction; with it one of 100
+  // gains 6.4e-3, the next 3.5e-3.
+  constexpr double kGain = 1.5e-3, kGainWithFriction = 8e-3;
+  constexpr double kLoss = 7e-3;  // points that leave over an edge, along another way than they came
+  // The mean of 100 is 0.0011 without and 0.0006 with friction; 0.0073 and 0.0043 where what a point still stores as it
+  // leaves across an edge is dissipated; 0.015 where a force begins with all that the law gives at the end of the step.
+  constexpr double kMeanLoss = 0.002;
+  constexpr std::uint64_t kMean = 100;
   for (const double friction : {0.0, 0.5}) {
     double sum = 0;
     for (std::uint64_t seed = 1; seed <= kMean; ++seed) {
@@ -200,9 +202,7 @@ TEST(Collision, AtHalfOfTheStableStepReturnsWhatContactTookAndNoMore) {
       expect_momenta(start, c.totals());
       const double made = (c.contact_work() + c.scene().work.friction_dissipated.value()) / start.kinetic;
       sum += made;
-      EXPECT_LT(made, kGainOfAny) << "seed " << seed << " friction " << friction;
-      if (seed > kSeeds) continue;
-      EXPECT_LT(made, kGain) << "seed " << seed << " friction " << friction;
+      EXPECT_LT(made, friction > 0 ? kGainWithFriction : kGain) << "seed " << seed << " friction " << friction;
       EXPECT_GT(made, -kLoss) << "seed " << seed << " friction " << friction;
       EXPECT_LT(c.resultant_error(), 1e-9 * c.largest_force()) << "closing forces are part of the resultant";
     }

@@ -17,7 +17,7 @@ TEST(OverlapField, OfALoneTetrahedronIsMadeOfItsHeightsAndFaces) {
   const test::Scene scene(test::lone(test::regular_tetra(1.0)), {kPenalty, kInfinite, 1, 0, 1});
   const FieldValues& values = scene.contact.field.at(0);
   for (const double depth : values.depth) EXPECT_NEAR(depth, std::sqrt(2.0 / 3.0), kRoundOff);
-  EXPECT_EQ(values.sets, 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14);
+  EXPECT_EQ(values.sets, 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14 | kExact);
 }
 
 TEST(OverlapField, HasTheSameLeastFunctionHoweverItIsFound) {
@@ -131,7 +131,8 @@ void sink_field(test::Scene& scene, Index steps) {
   scene.params.ramp_steps = steps;
   for (const TouchingCouple& touching : scene.contact.touching) {
     FieldValues& field = scene.contact.field[at(touching.contactor)];
-    const auto surface = static_cast<unsigned>(std::bit_width(static_cast<unsigned>(field.sets)) - 1);
+    const auto sets = static_cast<unsigned>(field.sets) & ((1U << kNumCornerSets) - 1);
+    const auto surface = static_cast<unsigned>(std::bit_width(sets) - 1);
     // A corner on the surface: its depth counts for nothing yet.
     const std::size_t kept = opposite_to_top(scene, touching.contactor, surface);
     field.depth[kept] = kLeft;
@@ -215,8 +216,9 @@ TEST(CouplesOfFracture, OutlastAJointThatOpensBesideTheirElementAndAreCutOffFart
   scene.evaluate(1e-3);
   ASSERT_EQ(scene.contact.touching.size(), 1u);
   // The neighbours are out of reach, as if they had moved away.
-  const Index slot = scene.contact.contactors[at(scene.contact.touching[0].contactor)];
+  const Index contactor = scene.contact.touching[0].contactor, slot = scene.contact.contactors[at(contactor)];
   scene.couple([&](Index s) { return scene.body(s) == 1; }, [&](Index s) { return s == slot; });
+  scene.contact.field[at(contactor)].sets |= kFractured;
   const auto corners = load_corners(scene.local, scene.state.position.data(), slot);
   const auto lambda = barycentric(
       prepare(corners, scene.local.volume[at(slot)]),

@@ -76,7 +76,7 @@ TEST(KinksOfTheOverlap, TakeOfADampedPointWhatIsDissipated) {
     const Vec3 direction = Vec3(number(random), number(random), number(random)).normalized();
     const Vec3 beside = 0.15 * kLarge * Vec3(number(random), number(random), number(random));
     Way point(middle + beside - 1.2 * kLarge * direction, kDamping);
-    for (int i = 0; i < 240; ++i) point.move(kStep * direction);
+    for (int i = 0; i < 300; ++i) point.move(kStep * direction);
     EXPECT_EQ(point.scene.work.stored.value(), 0.0);
     unaccounted += std::abs(point.done + point.scene.work.dissipated.value());
     dissipated += point.scene.work.dissipated.value();

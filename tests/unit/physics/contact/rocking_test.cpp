@@ -80,7 +80,7 @@ void move(test::Scene& scene, Index body, const std::function<Vec3(const Vec3&)>
   scene.evaluate(1.0);
 }
 
-TEST(Rocking, AwayFromAPointThatIsJustBesideAnEdgeLosesWhatTheCoupleHeldAndSaysSo) {
+TEST(Rocking, KeepsTheSideThatAPointPressesOnThoughItNoLongerFacesThePoint) {
   constexpr double size = 1e-3, side = 0.02;  // m, of the face with the point; rad by which the side looks up at first
   const auto turn = [](double angle) {
     return [angle](const Vec3& x) -> Vec3 {
@@ -104,8 +104,8 @@ TEST(Rocking, AwayFromAPointThatIsJustBesideAnEdgeLosesWhatTheCoupleHeldAndSaysS
   const double held = scene.work.stored.value(), lost = scene.work.dissipated.value();
   ASSERT_GT(held, 0);
   move(scene, 0, turn(-0.75 * side));
-  ASSERT_EQ(scene.work.stored.value(), 0) << "all sides look away";
-  EXPECT_NEAR(scene.work.dissipated.value() - lost, held, 0.1 * held);
+  EXPECT_GT(scene.work.stored.value(), 0.5 * held) << "all sides face away";
+  EXPECT_EQ(scene.work.dissipated.value(), lost);
 }
 
 /// Points at the lower edges of the upper body look at a side of the lower one that is far away.

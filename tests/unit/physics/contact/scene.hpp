@@ -16,8 +16,8 @@
 #include "mesh/raster.hpp"
 #include "mesh/topology.hpp"
 #include "physics/contact/couples.hpp"
-#include "physics/contact/geometry/field.hpp"
 #include "physics/contact/forces.hpp"
+#include "physics/contact/geometry/field.hpp"
 
 /// Small models for the contact tests.
 namespace breccia::test {
@@ -125,6 +125,7 @@ struct Scene {
     const std::size_t groups = mesh.volume_groups.size();
     local = build_local_mesh(mesh, std::vector(groups, discretisation), std::vector(groups, density));
     params.points_per_face = points_per_face;
+    params.points_everywhere = false;  // couples are chosen by tests: each point presses with its whole weight
     params.field = field;
     params.num_groups = static_cast<Index>(groups);
     params.laws.assign(groups * groups, law);

@@ -166,7 +166,7 @@ TEST(ContactStep, OfABoxOnAHeldOneCountsItsOwnNodesAlone) {
   const double both = scene.largest();
   scene.hold(0);
   const double one = scene.largest();
-  EXPECT_LT(one, 0.6 * both);
+  EXPECT_LT(one, 0.65 * both) << "half but for the weights of points";
   EXPECT_GE(one, scene.true_largest() * (1 - kSlack));
 }
 
