@@ -25,7 +25,7 @@ struct Place {
   Vec3 x;
   Index element;
   Kind kind;
-  Index node = -1;  ///< of a corner
+  Index node = -1;  ///< that it is at, of a corner, and of a contact point at one
 };
 
 std::size_t num_volumes(const Mesh& mesh) {
@@ -60,7 +60,10 @@ std::vector<Place> places_of(const Model& model) {
     for (std::size_t k = 0; k < at(rule.num_points); ++k) {
       const std::array<double, 3>& shape = rule.shape[k];
       const Vec3 point = shape[0] * x[at(f[0])] + shape[1] * x[at(f[1])] + shape[2] * x[at(f[2])];
-      places.push_back({point, face.element, Place::point});
+      const auto corner = std::find(shape.begin(), shape.end(), 1.0);
+      const Index node =
+          corner == shape.end() ? -1 : model.mesh.elements[at(face.element)][at(f[at(corner - shape.begin())])];
+      places.push_back({point, face.element, Place::point, node});
     }
     places.push_back({0.25 * (x[0] + x[1] + x[2] + x[3]), face.element, Place::middle});
     for (const int c : f) corners.emplace_back(model.mesh.elements[at(face.element)][at(c)], face.element);

@@ -45,6 +45,8 @@ broken = ["raster.slit"]
 [[initial_velocity]]
 group = "raster"
 strain_rate = [400, 0, 0]
+[contact_points]
+per_face = 3
 [domains]
 margin = 0.1
 )";

@@ -1,31 +1,34 @@
-"""A point beside an edge, a far side, and a gap of an opening joint: three rules of contact."""
+"""A point beside an edge, a point at a corner over a seam, and a gap of an opening joint: three rules of contact."""
 from drawing import *
 
 d = Drawing(700, 300)
-# (1) Beside an edge: the element of the point has only the side; its neighbour with the top replaces it.
+# (1) Beside an edge: every element there has the distances to both sides.
 x, y = 20, 70
 d.text((x, 24), "1  edge", bold=True)
 d.area([(x, y), (x + 170, y), (x + 170, y + 130), (x, y + 130)], PALE, GREY, 1)
 d.area([(x + 170, y), (x + 170, y + 130), (x + 95, y + 130)], FILLS[ORANGE], ORANGE, 1.2)
 d.area([(x + 170, y), (x + 95, y + 130), (x + 20, y)], FILLS[GREEN], GREEN, 1.2)
-d.dot((x + 166, y + 14), RED, 4)
-d.arrow((x + 166, y + 14), (x + 166, y - 24), RED, 1.8)
-d.text((x + 60, y + 30), "B: has the top", GREEN, 12)
+d.dot((x + 152, y + 50), RED, 4)
+d.arrow((x + 152, y + 50), (x + 152, y + 2), BLUE, 1.6)
+d.arrow((x + 152, y + 50), (x + 169, y + 50), BLUE, 1.6)
+d.text((x + 118, y + 30), "D_{1}", BLUE, 12)
+d.text((x + 154, y + 70), "D_{2}", BLUE, 12)
+d.text((x + 60, y + 30), "B", GREEN, 12)
 d.text((x + 118, y + 118), "A", ORANGE, 12)
-d.text((x, 222), "The point lies in A, which has only\nthe right side. B reaches to it within\nλ ≥ −0.01 and replaces A.", size=12)
-# (2) A side far away.
+d.text((x, 222), "A has the face on the right, B the\nface on top. Both have the distances\nto both sides, so g is continuous.", size=12)
+# (2) The lower corner of a block comes over a seam.
 x = 250
-d.text((x, 24), "2  far side", bold=True)
-d.area([(x, y), (x + 150, y), (x + 150, y + 130), (x, y + 130)], PALE, GREY, 1)
-d.line((x, y), (x + 150, y), BLUE, 2.5)
-d.line((x + 150, y), (x + 150, y + 130), ORANGE, 2.5)
-d.dot((x + 143, y + 90), RED, 4)
-d.arrow((x + 143, y + 90), (x + 143, y + 2), BLUE, 1.4, dash="5 4")
-d.arrow((x + 143, y + 90), (x + 168, y + 90), ORANGE, 1.6)
-d.text((x + 60, y + 60), "g (faces)", BLUE, 12)
-d.text((x + 156, y + 80), "< g/2", ORANGE, 12)
-d.text((x + 164, y + 110), "nearer\nside", ORANGE, 12)
-d.text((x, 222), "No force starts if the facing side is\ndeeper than 0.1 of the element's\ndepth, and another one is nearer\nthan half of it.", size=12)
+d.text((x, 24), "2  corner over a seam", bold=True)
+d.area([(x, y + 80), (x + 88, y + 80), (x + 88, y + 130), (x, y + 130)], PALE, GREY, 1)
+d.area([(x + 92, y + 80), (x + 180, y + 80), (x + 180, y + 130), (x + 92, y + 130)], PALE, GREY, 1)
+d.area([(x + 10, y + 10), (x + 102, y + 10), (x + 102, y + 88), (x + 10, y + 88)], FILLS[BLUE], BLUE, 1.6, 0.8)
+d.dot((x + 102, y + 88), RED, 4)
+d.arrow((x + 102, y + 88), (x + 144, y + 88), RED, 1.8)
+d.arrow((x + 102, y + 88), (x + 130, y + 116), ORANGE, 1.8)
+d.text((x + 146, y + 92), "n_{p}", RED, 12)
+d.text((x + 132, y + 122), "m", ORANGE, 12)
+d.arrow((x + 20, y + 40), (x + 64, y + 40), BLUE, 2)
+d.text((x, 222), "The front faces the seam, the mean\nnormal m of the corner the top too.\nThe nearest side counts: the top.\nThe seam does not stop the block.", size=12)
 # (3) A joint opens under a pressing point.
 x = 485
 d.text((x, 24), "3  gap of a joint", bold=True)

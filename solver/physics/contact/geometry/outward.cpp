@@ -8,7 +8,8 @@ namespace breccia {
 
 namespace {
 
-/// 1 less the length of the mean normal of a surface that is half as sharp as an edge; a mean tilt of one degree.
+/// 1 less the length of the mean normal of a surface that is half as sharp as an edge: a mean tilt of 0.8 degrees. A
+/// ball of elements of a third of its radius gets up to 0.8 % of its momentum sideways on a flat plate, 1.4 % with 2e-4.
 constexpr double kFlat = 1e-4;
 
 double sharpness_of(const std::array<double, 3>& normal) {
@@ -51,7 +52,7 @@ double sharpness(const FieldValues& values, const std::array<double, 4>& lambda)
     weight += near;
     sum += near * sharpness_of(values.normal[a]);
   }
-  return weight > 0 ? sum / weight : 1.0;
+  return weight > 0 ? sum / weight : sharpness_of({});
 }
 
 }  // namespace breccia

@@ -33,7 +33,7 @@ template <class Place>
   return outward;
 }
 
-/// How sharp the surface is: 0 where it is flat, 1 at edges and corners and where it has come from inside, near 1 where
+/// How sharp the surface is: 0 where it is flat, nearly 1 at edges and corners, where it has come from inside, and where
 /// its triangles are tilted against each other by more than a few degrees. Of corners in between, by interpolation.
 [[nodiscard]] double sharpness(const FaceRule& rule, const ContactPoint& point, const FieldValues& values);
 /// @param lambda  of a place near the surface
@@ -41,7 +41,7 @@ template <class Place>
 
 /// Share of its weight with which a point presses on a contactor whose points press on the point's body as well. The
 /// sharper surface presses on the flatter one, whose normal is then the direction of all forces: the normals of the
-/// triangles of a curved surface are not those of the surface. At one place the shares of both add up to 2.
+/// triangles of a curved surface are not those of the surface. At one place the shares of both add up to 2; > 0.
 [[nodiscard]] inline double share_of_weight(double sharpness_of_point, double sharpness_of_contactor) {
   return 1 + sharpness_of_point - sharpness_of_contactor;
 }
