@@ -80,17 +80,21 @@ void Resolver::consider(const ContactPoint& point, Index contactor, const std::a
 
 /// A point that pressed on an element and is now in a joint that opens beside it, in none of its neighbours, keeps its
 /// couple: the force would end within a step, and with it the energy that the couple holds. A point that did not press
-/// cannot matter to the element before it is inside.
+/// cannot matter to the element before it is inside, unless that replaces a neighbour.
 void Resolver::bridge_gaps(Index point, std::span<Nearby> beside) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
   const std::size_t inside = candidates_.size();
+  bool any_may_lack = false;
   for (const Nearby& here : beside) {
     const Index contactor = here.couple->contactor;
+    const bool may_lack = view_.may_lack_sides(contactor);
+    any_may_lack = any_may_lack || may_lack;
     bool pressed = false;
     for (std::size_t k = old_; k < old.size() && old[k].point == point; ++k)
       pressed = pressed || (old[k].contactor == contactor && old[k].history.d > 0);
     if (!pressed) {
-      here.couple->apart_until = contact_.travel + here.safe;
+      // Nearby a side it may come to lie under it at any time, without coming nearer.
+      if (!may_lack) here.couple->apart_until = contact_.travel + here.safe;
       continue;
     }
     const bool continues =
@@ -98,9 +102,50 @@ void Resolver::bridge_gaps(Index point, std::span<Nearby> beside) {
                     [&](const Candidate& c) { return view_.are_neighbours(c.contactor, contactor); });
     if (!continues && view_.rules().bridge_gaps) consider(view_.point(point), contactor, here.lambda);
   }
-  if (candidates_.size() == inside) return;
+  if (candidates_.size() == inside && !any_may_lack) return;
+  if (any_may_lack && view_.rules().prefer_facing_side) prefer_facing_sides(view_.point(point), beside, inside);
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.contactor < b.contactor; });
+  // One may have replaced two that share the place of the point.
+  const auto last = std::unique(candidates_.begin(), candidates_.end(),
+                                [](const Candidate& a, const Candidate& b) { return a.contactor == b.contactor; });
+  candidates_.erase(last, candidates_.end());
+}
+
+/// How the side faces under which the point would lie if the contactor reached so far. @pre it may lack sides
+Facing Resolver::side_over(const ContactPoint& point, const Nearby& here) const {
+  const Index contactor = here.couple->contactor;
+  const OverlapShape& shape = view_.shape_of(contactor);
+  const FacingRows most = rows_facing(shape, view_.tetra_of(contactor), view_.outward_of(point));
+  return most.rows != 0 && overlap_value(shape, here.lambda, most.rows) > 0 ? most.facing : Facing::away;
+}
+
+/// The nearest neighbour of a candidate with a side that faces the point's face more; null: none.
+const Nearby* Resolver::facing_more(const ContactPoint& point, std::span<const Nearby> beside, Index candidate) const {
+  const Nearby* best = nullptr;
+  std::optional<Facing> most;
+  for (const Nearby& here : beside) {
+    const Index contactor = here.couple->contactor;
+    if (!view_.may_lack_sides(contactor) || !view_.are_neighbours(contactor, candidate)) continue;
+    if (!most) most = rows_facing(view_.shape_of(candidate), view_.tetra_of(candidate), view_.outward_of(point)).facing;
+    if (best == nullptr && *most == Facing::well) return nullptr;
+    const Facing facing = side_over(point, here);
+    const bool nearer = best != nullptr && facing == *most && smallest(here.lambda) > smallest(best->lambda);
+    if (!(facing > *most) && !nearer) continue;
+    most = facing;
+    best = &here;
+  }
+  return best;
+}
+
+/// Just beside an edge a point may be in an element of a breakable body that has only the other side of the edge: the
+/// nearest neighbour with a side that faces the point more replaces it, as if it extended so far.
+/// @param inside  number of candidates that the point is in, which come first
+void Resolver::prefer_facing_sides(const ContactPoint& point, std::span<const Nearby> beside, std::size_t inside) {
+  for (std::size_t i = 0; i < inside; ++i) {
+    const Nearby* best = facing_more(point, beside, candidates_[i].contactor);
+    if (best != nullptr) candidates_[i] = candidate_of(point, best->couple->contactor, best->lambda);
+  }
 }
 
 /// A point on the border of neighbouring elements is inside all of them (kInside): the first one counts. So it does
@@ -207,8 +252,8 @@ void Resolver::switch_gradient(const ContactPoint& point, const Candidate& candi
   const PairHistory<double>& h = old.history;
   const double deep = h.d * view_.length_of(candidate.contactor);
   if (motion == Vec3::Zero()) {
-    // A neighbour that now has the point beside an edge continues with the same force.
-    if (old.contactor != candidate.contactor) now.offset = now.overlap_before - deep;
+    // Another side counts, or a neighbour has the point: the force remains, none begins.
+    if (old.contactor != candidate.contactor || !(h.d > 0)) now.offset = now.overlap_before - deep;
     return;
   }
   const double change = now.overlap_before - (deep + h.offset);

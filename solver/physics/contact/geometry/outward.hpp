@@ -33,8 +33,8 @@ template <class Place>
   return outward;
 }
 
-/// How sharp the surface is: 0 where it is flat, nearly 1 at edges and corners, where it has come from inside, and where
-/// its triangles are tilted against each other by more than a few degrees. Of corners in between, by interpolation.
+/// How sharp the surface is: 0 where it is flat, nearly 1 at edges and corners, where it has come from inside, and
+/// where its triangles are tilted by more than a few degrees. Of corners in between, by interpolation.
 [[nodiscard]] double sharpness(const FaceRule& rule, const ContactPoint& point, const FieldValues& values);
 /// @param lambda  of a place near the surface
 [[nodiscard]] double sharpness(const FieldValues& values, const std::array<double, 4>& lambda);
