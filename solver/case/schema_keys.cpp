@@ -288,7 +288,7 @@ constexpr auto model_keys = std::to_array<Key>({
      .fixed_by_state = "the contact of the points is part of the state"},
     {.path = "contact_points.per_face", .type = integer, .fallback = "4", .choices = "1|3|4|6",
      .help = "Points of each free face: of 4, three are its corners, so that contact with an edge or corner is "
-             "detected at once; 1, 3 and 6 lie inside the face. 3 costs a quarter less, as in heaps of debris.",
+             "detected at once; 1, 3 and 6 lie inside the face. 3 costs half as much in heaps of debris.",
      .example = "3"},
     {.path = "contact_points.field", .type = choice, .fallback = "body", .choices = "body|tet_potential|tet_distance",
      .help = "Measure of the overlap: a field that is continuous over a body, or the published potential or distance "
