@@ -117,7 +117,8 @@ newcomer() {
   git clone --quiet --no-hardlinks "$repository" "$tree/root/breccia"
   share_compiler_cache
   step demo "./run demo"
-  grep -E '^(Need to get|[0-9]+ upgraded)' "$out/demo.log" || true
+  cp "$tree/root/breccia/runs/packages.log" "$out/packages.log"
+  grep -hE '^(Need to get|[0-9]+ upgraded)' "$out/demo.log" "$out/packages.log" || true
   local picture file
   for picture in plate fragments stress_20us; do
     file=$tree/root/breccia/runs/demo/$picture.png

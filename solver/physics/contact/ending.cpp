@@ -38,7 +38,7 @@ void EndedCouples::end(const TouchingCouple& old, double lost) {
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) return view_.account(point, pair_step::stored_in_overlap(pair, last), work_.dissipated);
   const Escape escape = escape_of(old, pair, lambda, motion);
-  const bool is_pushed = view_.rules().edge_push && !escape.is_over;
+  const bool is_pushed = view_.rules().opening_push && !escape.is_over;
   if (!is_pushed) {
     view_.account(point, escape.left, work_.dissipated);
     lost += escape.left;

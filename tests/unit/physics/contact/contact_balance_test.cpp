@@ -224,5 +224,22 @@ TEST(ContactBalance, APointThatComesBackWhileItsClosingForceLastsIsAsDeepAsItLie
   EXPECT_EQ(press.dissipated(), 0) << "by an elastic law";
 }
 
+TEST(OpeningForce, ReturnsNoMoreThanIsMissingToAnyMassThatAStableStepAllows) {
+  constexpr double k = 3, motion = 0.1;                     // N/m; m in a step of 1 s
+  for (const double mass : {k / 4, k / 2, k, 10 * k}) {     // k dt^2 / m = 4, 2, 1, 0.1
+    for (const double missing : {1e-4, 1e-3, 0.01, 0.1}) {  // J; k motion^2 = 0.03
+      const Vec3 force = opening_force(missing, Vec3(Vec3::UnitX()), Vec3(motion, 0.03, 0), k);
+      EXPECT_GT(force[0], 0);
+      EXPECT_EQ(force[1], 0);
+      const double next = motion + force[0] / mass;
+      const double returned = 0.5 * force[0] * (motion + next);
+      EXPECT_LE(returned, missing * (1 + 1e-12)) << mass << " " << missing;
+      if (missing < 1e-2 * k * motion * motion) EXPECT_GT(returned, 0.9 * missing) << "in one step";
+    }
+  }
+  EXPECT_EQ(opening_force(1.0, Vec3(Vec3::UnitX()), Vec3(-motion, 0, 0), k), Vec3(Vec3::Zero())) << "it comes back";
+  EXPECT_EQ(opening_force(0.0, Vec3(Vec3::UnitX()), Vec3(motion, 0, 0), k), Vec3(Vec3::Zero()));
+}
+
 }  // namespace
 }  // namespace breccia::contact_balance_test
