@@ -44,7 +44,7 @@ def experiments(long):
             RandomCases("piles", piles, range(1, 31) if long else [3, 8, 11, 12]),
             RandomCases("fragmentations", fragmentations, range(1, 51) if long else [7, 21, 107, 325]),
             Rig("rig", [0.3, 0.6]), Rig("rig at 0.9", [0.9]), Slopes(), Slides(), Spins(),
-            Arch(), Seam(), Ball(20 if long else 4), Cubes(4 if long else 1, 0.25 if long else 0.05), Platens(), Debris(1.0 if long else 0.25)]
+            Arch(), Seam(), Ball(20 if long else 12), Cubes(4 if long else 1, 0.25 if long else 0.05), Platens(), Debris(1.0 if long else 0.25)]
 
 
 def write_cases(experiment, folder):

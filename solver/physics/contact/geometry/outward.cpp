@@ -9,8 +9,8 @@ namespace breccia {
 namespace {
 
 /// 1 less the length of the mean normal of a surface that is half as sharp as an edge: a mean tilt of 0.8 degrees. A
-/// ball of elements of a third of its radius gets up to 0.8 % of its momentum sideways on a flat plate, 1.4 % with
-/// 2e-4.
+/// ball of elements of a third of its radius, three points a face, gets up to 0.8 % of its momentum sideways on a flat
+/// plate, 1.4 % with 2e-4.
 constexpr double kFlat = 1e-4;
 
 double sharpness_of(const std::array<double, 3>& normal) {
