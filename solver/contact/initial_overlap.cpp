@@ -60,9 +60,8 @@ std::vector<Place> places_of(const Model& model) {
     for (std::size_t k = 0; k < at(rule.num_points); ++k) {
       const std::array<double, 3>& shape = rule.shape[k];
       const Vec3 point = shape[0] * x[at(f[0])] + shape[1] * x[at(f[1])] + shape[2] * x[at(f[2])];
-      const auto corner = std::find(shape.begin(), shape.end(), 1.0);
-      const Index node =
-          corner == shape.end() ? -1 : model.mesh.elements[at(face.element)][at(f[at(corner - shape.begin())])];
+      const int corner = corner_of_face(shape);
+      const Index node = corner < 0 ? -1 : model.mesh.elements[at(face.element)][at(f[at(corner)])];
       places.push_back({point, face.element, Place::point, node});
     }
     places.push_back({0.25 * (x[0] + x[1] + x[2] + x[3]), face.element, Place::middle});

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
+
 #include "base/disjoint_sets.hpp"
 #include "base/index.hpp"
 
@@ -25,6 +27,11 @@ std::vector<Index> solids_of_nodes(const Mesh& mesh) {
 }
 
 }  // namespace
+
+Vec3 normal_of(const Mesh& mesh, const FreeFace& face) {
+  const Vec3 &a = mesh.nodes[at(face[0])], &b = mesh.nodes[at(face[1])], &c = mesh.nodes[at(face[2])];
+  return (b - a).cross(c - a).normalized();
+}
 
 std::vector<FreeFace> free_faces(const Mesh& mesh, const Topology& topology) {
   std::vector<FreeFace> faces;

@@ -146,11 +146,8 @@ SurfaceDepth surface_depth(const std::vector<bool>& breakable, const Mesh& mesh,
   result.normal = mean_normals(mesh, faces);
   const FacesAtNodes faces_at(mesh, faces);
   result.sets.reserve(mesh.elements.size());
-  result.sides.reserve(mesh.elements.size());
-  for (const auto& corners : mesh.elements) {
-    result.sets.push_back(sets_of(corners, faces, faces_at));
-    result.sides.push_back(sides_of(mesh, corners, result.sets.back(), faces, faces_at));
-  }
+  for (const auto& corners : mesh.elements) result.sets.push_back(sets_of(corners, faces, faces_at));
+  result.sides.resize(mesh.elements.size());
 
   const std::vector<Around> around = around_nodes(breakable, mesh, topology);
   result.depth.reserve(around.size());
@@ -158,7 +155,11 @@ SurfaceDepth surface_depth(const std::vector<bool>& breakable, const Mesh& mesh,
   if (std::any_of(around.begin(), around.end(), [](const Around& node) { return !node.breakable; }))
     set_distances(mesh, topology, faces, around, result);
   for (Index e = 0; e < mesh.num_elements(); ++e) {
-    if (breakable[at(mesh.element_group[at(e)])] || result.sets[at(e)] == 0) continue;
+    if (result.sets[at(e)] == 0) continue;
+    if (breakable[at(mesh.element_group[at(e)])]) {
+      result.sides[at(e)] = sides_of(mesh, mesh.elements[at(e)], result.sets[at(e)], faces, faces_at);
+      continue;
+    }
     const SurfacePlanes planes = surface_planes(mesh, e, faces, faces_at, result.depth);
     result.sets[at(e)] |= kExact | with_planes(planes.count);
     result.sides[at(e)] = planes.rows;

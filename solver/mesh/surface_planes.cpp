@@ -5,8 +5,6 @@
 #include <bit>
 #include <limits>
 
-#include <Eigen/Geometry>
-
 #include "mesh/geometry.hpp"
 
 namespace breccia {
@@ -84,11 +82,6 @@ std::vector<Side> sides_beside(const std::vector<SeenFace>& seen, double toleran
 }
 
 }  // namespace
-
-Vec3 normal_of(const Mesh& mesh, const FreeFace& face) {
-  const Vec3 &a = mesh.nodes[at(face[0])], &b = mesh.nodes[at(face[1])], &c = mesh.nodes[at(face[2])];
-  return (b - a).cross(c - a).normalized();
-}
 
 SurfacePlanes surface_planes(const Mesh& mesh, Index element, std::span<const FreeFace> faces,
                              const FacesAtNodes& around, std::span<const double> depth) {

@@ -25,7 +25,4 @@ struct SurfacePlanes {
 [[nodiscard]] SurfacePlanes surface_planes(const Mesh& mesh, Index element, std::span<const FreeFace> faces,
                                            const FacesAtNodes& around, std::span<const double> depth);
 
-/// Outward unit normal.
-[[nodiscard]] Vec3 normal_of(const Mesh& mesh, const FreeFace& face);
-
 }  // namespace breccia

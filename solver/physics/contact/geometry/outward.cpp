@@ -21,11 +21,8 @@ double sharpness_of(const std::array<double, 3>& normal) {
 }  // namespace
 
 int corner_of(const FaceRule& rule, const ContactPoint& point) {
-  const std::array<double, 3>& shape = rule.shape[point.k];
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (shape[i] == 1) return kFaceCorners[at(point.face)][i];
-  }
-  return -1;
+  const int corner = corner_of_face(rule.shape[point.k]);
+  return corner < 0 ? -1 : kFaceCorners[at(point.face)][at(corner)];
 }
 
 Vec3 turned_inwards(const Vec3& normal, const LocalMesh& local, Index slot, const std::array<Vec3, 4>& x) {

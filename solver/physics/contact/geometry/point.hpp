@@ -37,6 +37,14 @@ struct FaceRule {
 /// Throws InternalError for any other number.
 [[nodiscard]] const FaceRule& face_rule(int points_per_face);
 
+/// Corner of the face, 0 to 2, that a point with this shape function is at; -1: it is at none.
+[[nodiscard]] inline int corner_of_face(const std::array<double, 3>& shape) {
+  for (int i = 0; i < 3; ++i) {
+    if (shape[static_cast<std::size_t>(i)] == 1) return i;
+  }
+  return -1;
+}
+
 /// Appends the points of one face, k ascending.
 void append_points(const FaceRule& rule, const LocalMesh& local, Index slot, int face,
                    std::vector<ContactPoint>& points);
