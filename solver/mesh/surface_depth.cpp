@@ -15,53 +15,6 @@
 namespace breccia {
 namespace {
 
-/// Of the sum of normals: what lies between the two sides of a sheet has none of its own.
-constexpr double kNoSide = 1e-3;
-
-CornerSets sets_of(const std::array<Index, 4>& corners, const std::vector<FreeFace>& faces,
-                   const FacesAtNodes& around) {
-  CornerSets sets = 0;
-  for (const Index corner : corners) {
-    for (const Index f : around.at_node(corner)) {
-      const FreeFace& nodes = faces[at(f)];
-      unsigned set = 0;
-      for (unsigned c = 0; c < 4; ++c) {
-        if (std::find(nodes.begin(), nodes.end(), corners[c]) != nodes.end()) set |= 1U << c;
-      }
-      sets |= 1 << set;
-    }
-  }
-  return largest_sets(sets);
-}
-
-/// @param sets  of the element
-SideRows sides_of(const Mesh& mesh, const std::array<Index, 4>& corners, CornerSets sets,
-                  const std::vector<FreeFace>& faces, const FacesAtNodes& around) {
-  SideRows sides{};
-  for_each_side(sets, [&](unsigned set, int place) {
-    if (place < 0 || at(place) >= kMostSides) return;
-    const auto has = [&](const FreeFace& face, std::size_t c) {
-      return std::find(face.begin(), face.end(), corners[c]) != face.end();
-    };
-    const auto first = static_cast<std::size_t>(std::countr_zero(set));
-    Vec3 outward = Vec3::Zero();
-    for (const Index f : around.at_node(corners[first])) {
-      const FreeFace& face = faces[at(f)];
-      bool all = true;
-      for (std::size_t c = 0; c < 4; ++c) all = all && ((set >> c & 1U) == 0 || has(face, c));
-      if (!all) continue;
-      outward += normal_of(mesh, face);
-    }
-    if (!(outward.norm() > kNoSide)) return;
-    outward.normalize();
-    for (std::size_t c = 0; c < 4; ++c) {
-      if ((set >> c & 1U) == 0)
-        sides[at(place)][c] = outward.dot(mesh.nodes[at(corners[first])] - mesh.nodes[at(corners[c])]);
-    }
-  });
-  return sides;
-}
-
 /// Mean normals of the nodes, faces weighted with their angles.
 std::vector<Vec3> mean_normals(const Mesh& mesh, const std::vector<FreeFace>& faces) {
   std::vector<Vec3> sum(mesh.nodes.size(), Vec3::Zero());
@@ -145,24 +98,17 @@ SurfaceDepth surface_depth(const std::vector<bool>& breakable, const Mesh& mesh,
   }
   result.normal = mean_normals(mesh, faces);
   const FacesAtNodes faces_at(mesh, faces);
-  result.sets.reserve(mesh.elements.size());
-  for (const auto& corners : mesh.elements) result.sets.push_back(sets_of(corners, faces, faces_at));
-  result.sides.resize(mesh.elements.size());
-
   const std::vector<Around> around = around_nodes(breakable, mesh, topology);
   result.depth.reserve(around.size());
   for (const Around& node : around) result.depth.push_back(node.least_height);
   if (std::any_of(around.begin(), around.end(), [](const Around& node) { return !node.breakable; }))
     set_distances(mesh, topology, faces, around, result);
   for (Index e = 0; e < mesh.num_elements(); ++e) {
-    if (result.sets[at(e)] == 0) continue;
-    if (breakable[at(mesh.element_group[at(e)])]) {
-      result.sides[at(e)] = sides_of(mesh, mesh.elements[at(e)], result.sets[at(e)], faces, faces_at);
-      continue;
-    }
     const SurfacePlanes planes = surface_planes(mesh, e, faces, faces_at, result.depth);
-    result.sets[at(e)] |= kExact | with_planes(planes.count);
-    result.sides[at(e)] = planes.rows;
+    SurfaceSides sides = with_planes(planes.count);
+    for (std::size_t c = 0; c < 4; ++c) sides |= topology.links[at(e)][c].free() ? with_face(c) : 0;
+    result.sides.push_back(sides);
+    result.planes.push_back(planes.rows);
   }
   return result;
 }

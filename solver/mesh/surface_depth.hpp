@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "mesh/corner_sets.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/surface_sides.hpp"
 #include "mesh/topology.hpp"
 
 namespace breccia {
@@ -15,9 +15,9 @@ namespace breccia {
 struct SurfaceDepth {
   std::vector<std::uint8_t> on_surface;  ///< (mesh nodes) 1: a corner of a free face
   std::vector<double> depth;             ///< (mesh nodes) m, > 0
-  std::vector<Vec3> normal;      ///< (mesh nodes) mean outward normal; its length is 1 where the surface is flat
-  std::vector<CornerSets> sets;  ///< (elements) corners on one free face, those that no other set covers; kExact
-  std::vector<SideRows> sides;   ///< (elements) as described for SideRows
+  std::vector<Vec3> normal;         ///< (mesh nodes) mean outward normal; its length is 1 where the surface is flat
+  std::vector<SurfaceSides> sides;  ///< (elements) that each meets
+  std::vector<SideRows> planes;     ///< (elements) distances to those but its own faces (mesh/surface_planes.hpp)
 };
 
 /// The depth of a node of what can break is the least of its heights in its elements: no face that may become one of
@@ -27,11 +27,6 @@ struct SurfaceDepth {
 /// on the surface is how much lies behind it: the least of its heights above opposite free faces of its elements and of
 /// its distances to free faces that it lies behind by half its distance at least (the other side of a wall, the far
 /// side of a ridge); where there is none of these nearer than its longest edge, the least of its heights.
-///
-/// Elements of what cannot break that meet the surface have the distances to all sides there (kExact). Where one of
-/// the others meets the surface with an edge or a corner alone, its depths do not determine the normal of the surface
-/// there: some of its nodes may be nearer to another side. `sides` holds, for each such set, how far the corners lie
-/// behind the plane through the set whose normal is the mean of those of the free faces around it.
 ///
 /// The mean normal of a node weights each free face with its angle there, so it does not depend on how the surface is
 /// cut into triangles: of a straight edge between two faces at a right angle it is sqrt(1/2) long. Zero inside.

@@ -75,7 +75,12 @@ std::vector<Side> sides_beside(const std::vector<SeenFace>& seen, double toleran
     if (is_own) continue;
     auto side =
         std::find_if(sides.begin(), sides.end(), [&](const Side& s) { return s.continues_in(face, tolerance); });
-    if (side == sides.end()) side = sides.insert(sides.end(), Side{});
+    if (side == sides.end() && sides.size() < kMostSides) side = sides.insert(sides.end(), Side{});
+    if (side == sides.end()) {
+      side = std::max_element(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
+        return a.normals.normalized().dot(face.normal) < b.normals.normalized().dot(face.normal);
+      });
+    }
     side->add(face);
   }
   return sides;
@@ -86,13 +91,15 @@ std::vector<Side> sides_beside(const std::vector<SeenFace>& seen, double toleran
 SurfacePlanes surface_planes(const Mesh& mesh, Index element, std::span<const FreeFace> faces,
                              const FacesAtNodes& around, std::span<const double> depth) {
   const std::array<Index, 4>& corners = mesh.elements[at(element)];
+  const std::vector<SeenFace> seen = faces_around(mesh, corners, faces, around);
+  if (seen.empty()) return {};
   const auto x = geometry::corners_of(mesh, element);
   double longest = 0;
   for (const Vec3& a : x) {
     for (const Vec3& b : x) longest = std::max(longest, (a - b).norm());
   }
   SurfacePlanes planes;
-  for (const Side& side : sides_beside(faces_around(mesh, corners, faces, around), kOnPlane * longest)) {
+  for (const Side& side : sides_beside(seen, kOnPlane * longest)) {
     std::array<double, 4> row{}, by_node{};
     for (std::size_t c = 0; c < 4; ++c) {
       if ((side.set >> c & 1U) != 0) continue;
@@ -102,7 +109,7 @@ SurfacePlanes surface_planes(const Mesh& mesh, Index element, std::span<const Fr
     if (*std::min_element(row.begin(), row.end()) < -kOnPlane * longest) row = by_node;
     for (double& d : row) d = std::max(d, 0.0);
     const bool is_side = *std::max_element(row.begin(), row.end()) > kOnPlane * longest;
-    if (is_side && planes.count < kMostSides) planes.rows[planes.count++] = row;
+    if (is_side) planes.rows[planes.count++] = row;
   }
   return planes;
 }

@@ -56,8 +56,8 @@ struct FieldTable<ElementRecord> {
       FieldRow{"released_faces", "1", kState, [](auto& r) -> auto& { return r.released; }},
       FieldRow{"contactor", "1", kState, [](auto& r) -> auto& { return r.contactor; }},
       FieldRow{"overlap_depth", "m", kState, [](auto& r) -> auto& { return r.field.depth; }},
-      FieldRow{"surface_corners", "1", kState, [](auto& r) -> auto& { return r.field.sets; }},
-      FieldRow{"surface_sides", "m", kNotHashed, [](auto& r) -> auto& { return r.field.sides; }},
+      FieldRow{"surface_sides", "1", kState, [](auto& r) -> auto& { return r.field.sides; }},
+      FieldRow{"surface_planes", "m", kNotHashed, [](auto& r) -> auto& { return r.field.planes; }},
       FieldRow{"surface_normals", "1", kNotHashed, [](auto& r) -> auto& { return r.field.normal; }},
   };
 // clang-format on

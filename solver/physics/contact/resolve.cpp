@@ -40,36 +40,10 @@ Candidate Resolver::candidate_of(const ContactPoint& point, Index contactor,
 OverlapRows Resolver::sides_for(const ContactPoint& point, Index contactor) const {
   if (!view_.has_several_sides(contactor)) return kAllRows;
   const std::vector<TouchingCouple>& old = contact_.touching_before;
-  const TouchingCouple* before = nullptr;
   for (std::size_t k = old_; k < old.size() && contact_.id(old[k].point) == point.id; ++k) {
-    if (!(old[k].history.d > 0)) continue;
-    if (old[k].contactor == contactor) return sides_of(old[k].history);
-    if (view_.are_neighbours(old[k].contactor, contactor)) before = &old[k];
+    if (old[k].history.d > 0 && old[k].contactor == contactor) return sides_of(old[k].history);
   }
-  const OverlapRows continued = before == nullptr ? 0 : same_sides(*before, contactor);
-  if (continued != 0) return continued;
   return rows_for(view_.shape_of(contactor), view_.tetra_of(contactor), view_.outward_of(point));
-}
-
-/// Functions of a contactor whose sides are those that counted in its neighbour.
-OverlapRows Resolver::same_sides(const TouchingCouple& before, Index contactor) const {
-  constexpr double kSame = 0.95;  // cosine; neighbouring triangles of a curved surface are one side
-  std::array<Vec3, kNumCornerSets> counted;
-  std::size_t count = 0;
-  const OverlapShape& there = view_.shape_of(before.contactor);
-  for (std::size_t k = 0; k < there.rows; ++k) {
-    if ((sides_of(before.history) >> k & 1U) != 0)
-      counted[count++] = side_gradient(there, k, view_.tetra_of(before.contactor)).normalized();
-  }
-  OverlapRows same = 0;
-  const OverlapShape& here = view_.shape_of(contactor);
-  for (std::size_t k = 0; k < here.rows; ++k) {
-    const Vec3 inward = side_gradient(here, k, view_.tetra_of(contactor)).normalized();
-    const bool is_same = std::any_of(counted.begin(), counted.begin() + static_cast<std::ptrdiff_t>(count),
-                                     [&](const Vec3& other) { return other.dot(inward) > kSame; });
-    if (is_same) same |= OverlapRows{1} << k;
-  }
-  return same;
 }
 
 /// Adds the contactor to the candidates of a point if its overlap is positive now or was so before the field moved.
@@ -80,21 +54,17 @@ void Resolver::consider(const ContactPoint& point, Index contactor, const std::a
 
 /// A point that pressed on an element and is now in a joint that opens beside it, in none of its neighbours, keeps its
 /// couple: the force would end within a step, and with it the energy that the couple holds. A point that did not press
-/// cannot matter to the element before it is inside, unless that replaces a neighbour.
+/// cannot matter to the element before it is inside.
 void Resolver::bridge_gaps(Index point, std::span<Nearby> beside) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
   const std::size_t inside = candidates_.size();
-  bool any_may_lack = false;
   for (const Nearby& here : beside) {
     const Index contactor = here.couple->contactor;
-    const bool may_lack = view_.may_lack_sides(contactor);
-    any_may_lack = any_may_lack || may_lack;
     bool pressed = false;
     for (std::size_t k = old_; k < old.size() && old[k].point == point; ++k)
       pressed = pressed || (old[k].contactor == contactor && old[k].history.d > 0);
     if (!pressed) {
-      // Nearby a side it may come to lie under it at any time, without coming nearer.
-      if (!may_lack) here.couple->apart_until = contact_.travel + here.safe;
+      here.couple->apart_until = contact_.travel + here.safe;
       continue;
     }
     const bool continues =
@@ -102,50 +72,9 @@ void Resolver::bridge_gaps(Index point, std::span<Nearby> beside) {
                     [&](const Candidate& c) { return view_.are_neighbours(c.contactor, contactor); });
     if (!continues && view_.rules().bridge_gaps) consider(view_.point(point), contactor, here.lambda);
   }
-  if (candidates_.size() == inside && !any_may_lack) return;
-  if (any_may_lack && view_.rules().prefer_facing_side) prefer_facing_sides(view_.point(point), beside, inside);
+  if (candidates_.size() == inside) return;
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.contactor < b.contactor; });
-  // One may have replaced two that share the place of the point.
-  const auto last = std::unique(candidates_.begin(), candidates_.end(),
-                                [](const Candidate& a, const Candidate& b) { return a.contactor == b.contactor; });
-  candidates_.erase(last, candidates_.end());
-}
-
-/// How the side faces under which the point would lie if the contactor reached so far. @pre it may lack sides
-Facing Resolver::side_over(const ContactPoint& point, const Nearby& here) const {
-  const Index contactor = here.couple->contactor;
-  const OverlapShape& shape = view_.shape_of(contactor);
-  const FacingRows most = rows_facing(shape, view_.tetra_of(contactor), view_.outward_of(point));
-  return most.rows != 0 && overlap_value(shape, here.lambda, most.rows) > 0 ? most.facing : Facing::away;
-}
-
-/// The nearest neighbour of a candidate with a side that faces the point's face more; null: none.
-const Nearby* Resolver::facing_more(const ContactPoint& point, std::span<const Nearby> beside, Index candidate) const {
-  const Nearby* best = nullptr;
-  std::optional<Facing> most;
-  for (const Nearby& here : beside) {
-    const Index contactor = here.couple->contactor;
-    if (!view_.may_lack_sides(contactor) || !view_.are_neighbours(contactor, candidate)) continue;
-    if (!most) most = rows_facing(view_.shape_of(candidate), view_.tetra_of(candidate), view_.outward_of(point)).facing;
-    if (best == nullptr && *most == Facing::well) return nullptr;
-    const Facing facing = side_over(point, here);
-    const bool nearer = best != nullptr && facing == *most && smallest(here.lambda) > smallest(best->lambda);
-    if (!(facing > *most) && !nearer) continue;
-    most = facing;
-    best = &here;
-  }
-  return best;
-}
-
-/// Just beside an edge a point may be in an element of a breakable body that has only the other side of the edge: the
-/// nearest neighbour with a side that faces the point more replaces it, as if it extended so far.
-/// @param inside  number of candidates that the point is in, which come first
-void Resolver::prefer_facing_sides(const ContactPoint& point, std::span<const Nearby> beside, std::size_t inside) {
-  for (std::size_t i = 0; i < inside; ++i) {
-    const Nearby* best = facing_more(point, beside, candidates_[i].contactor);
-    if (best != nullptr) candidates_[i] = candidate_of(point, best->couple->contactor, best->lambda);
-  }
 }
 
 /// A point on the border of neighbouring elements is inside all of them (kInside): the first one counts. So it does
@@ -289,7 +218,7 @@ bool Resolver::comes_from_beside(const ContactPoint& point, const Candidate& can
   if (candidate.old < 0 && motion == Vec3::Zero()) return false;
   const OverlapShape& shape = view_.shape_of(candidate.contactor, Instant::step_before);
   const std::size_t least = least_row(shape, candidate.lambda, candidate.rows);
-  const Vec3 inward = side_gradient(shape, least, view_.tetra_of(candidate.contactor));
+  const Vec3 inward = row_gradient(shape, least, view_.tetra_of(candidate.contactor));
   return facing(view_.outward_of(point).face, inward) == Facing::away;
 }
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -62,13 +61,8 @@ class Resolver {
   [[nodiscard]] Candidate candidate_of(const ContactPoint& point, Index contactor,
                                        const std::array<double, 4>& lambda) const;
   [[nodiscard]] OverlapRows sides_for(const ContactPoint& point, Index contactor) const;
-  [[nodiscard]] OverlapRows same_sides(const TouchingCouple& before, Index contactor) const;
   void consider(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda);
   void bridge_gaps(Index point, std::span<Nearby> beside);
-  void prefer_facing_sides(const ContactPoint& point, std::span<const Nearby> beside, std::size_t inside);
-  [[nodiscard]] const Nearby* facing_more(const ContactPoint& point, std::span<const Nearby> beside,
-                                          Index candidate) const;
-  [[nodiscard]] Facing side_over(const ContactPoint& point, const Nearby& here) const;
   void drop_ambiguous();
   void end_before(Index point);
   void find_histories(Index point);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "mesh/corner_sets.hpp"
+#include "mesh/surface_sides.hpp"
 #include "physics/contact/elements.hpp"
 #include "physics/contact/geometry/overlap.hpp"
 #include "physics/contact/geometry/point.hpp"
@@ -63,17 +63,12 @@ inline void sort_by_contactor(std::span<TouchingCouple> couples) {
   if (!std::is_sorted(couples.begin(), couples.end(), before)) std::sort(couples.begin(), couples.end(), before);
 }
 
-/// Among CornerSets, where bit 0 stands for no set: fracture has added some to those of the mesh.
-inline constexpr CornerSets kFractured = 1;
-
 /// Overlap field of a contactor (geometry/field.hpp).
 struct FieldValues {
   std::array<double, 4> depth{};                  ///< m, at its corners, > 0
-  CornerSets sets = 0;                            ///< corners on one face of the free surface; kFractured, kExact
-  SideRows sides{};                               ///< m, at rest (mesh/surface_depth.hpp)
+  SurfaceSides sides = 0;                         ///< that it meets
+  SideRows planes{};                              ///< m, those at rest beside its own faces (mesh/surface_planes.hpp)
   std::array<std::array<double, 3>, 4> normal{};  ///< mean outward normals at its corners, at rest
-  /// Whether the overlap is the least distance to the sides of the surface.
-  [[nodiscard]] bool is_exact() const { return (sets & (kExact | kFractured)) == kExact; }
   bool operator==(const FieldValues&) const = default;
 };
 

@@ -91,10 +91,6 @@ class ContactView {
   [[nodiscard]] bool has_sides(Index contactor) const {
     return rules().facing_sides && breccia::has_sides(params_, contact_, contactor);
   }
-  /// Whether it has sides but beside an edge not all of them, as in what can break.
-  [[nodiscard]] bool may_lack_sides(Index contactor) const {
-    return has_sides(contactor) && !contact_.field[at(contactor)].is_exact();
-  }
   [[nodiscard]] bool has_several_sides(Index contactor) const {
     return rules().facing_sides && breccia::has_several_sides(params_, contact_, contactor);
   }

@@ -24,7 +24,7 @@ import piles  # noqa: E402
 from impacts import Aligned, Impacts, RandomCases, Rest  # noqa: E402
 from rubbing import Rig, Slides, Slopes, Spins  # noqa: E402
 from structures import Arch, Debris, Platens, Seam  # noqa: E402
-from surfaces import Ball, Cubes  # noqa: E402
+from surfaces import Ball, Cubes, Oblique  # noqa: E402
 
 # Rules that act on the same error, of which one could do the work of both.
 PAIRS = ["closing_pull,remembered_gain", "facing_sides,facing_face", "facing_sides,corner_normals",
@@ -44,7 +44,8 @@ def experiments(long):
             RandomCases("piles", piles, range(1, 31) if long else [3, 8, 11, 12]),
             RandomCases("fragmentations", fragmentations, range(1, 51) if long else [7, 21, 107, 325]),
             Rig("rig", [0.3, 0.6]), Rig("rig at 0.9", [0.9]), Slopes(), Slides(), Spins(),
-            Arch(), Seam(), Ball(20 if long else 12), Cubes(4 if long else 1, 0.25 if long else 0.05), Platens(), Debris(1.0 if long else 0.25)]
+            Arch(), Seam(), Ball(20 if long else 12), Oblique(4 if long else 2),
+            Cubes(4 if long else 1, 0.25 if long else 0.05), Platens(), Debris(1.0 if long else 0.25)]
 
 
 def write_cases(experiment, folder):

@@ -49,7 +49,6 @@ constexpr auto kRules = std::to_array<Rule>({
     {"corner_normals", [](ContactParams& params) { params.rules.corner_normals = false; }},
     {"opening_push", [](ContactParams& params) { params.rules.opening_push = false; }},
     {"facing_sides", [](ContactParams& params) { params.rules.facing_sides = false; }},
-    {"prefer_facing_side", [](ContactParams& params) { params.rules.prefer_facing_side = false; }},
     {"facing_face", [](ContactParams& params) { params.rules.facing_face = false; }},
     {"bridge_gaps", [](ContactParams& params) { params.rules.bridge_gaps = false; }},
     {"one_of_neighbours", [](ContactParams& params) { params.rules.one_of_neighbours = false; }},

@@ -10,14 +10,41 @@ namespace breccia {
 
 namespace {
 
+/// The corners of an element that lie on a side, which its distances are measured from.
+unsigned corners_on(const std::array<double, 4>& distances) {
+  unsigned corners = 0;
+  for (unsigned a = 0; a < 4; ++a) corners |= distances[a] == 0 ? 1U << a : 0U;
+  return corners;
+}
+
+/// Whether all faces of an element around some of its corners are free and count in full: it has come off what lies
+/// beside it there.
+bool has_come_off(const FieldValues& values, unsigned corners, const ComingSets& coming) {
+  for (std::size_t a = 0; a < 4; ++a) {
+    const unsigned face = face_set(a);
+    if ((face & corners) != corners || has_face(values.sides, a)) continue;
+    if ((values.sides >> face & 1) == 0 || coming[face] > 0) return false;
+  }
+  return true;
+}
+
+/// The field of an element whose ramp has ended.
+void end_ramp(FieldValues& values) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < num_planes(values.sides); ++k) {
+    if (!has_come_off(values, corners_on(values.planes[k]), {})) values.planes[kept++] = values.planes[k];
+  }
+  std::fill(values.planes.begin() + static_cast<std::ptrdiff_t>(kept), values.planes.end(), std::array<double, 4>{});
+  values.sides = largest_sets(values.sides) | (values.sides & kOwnFaces) | with_planes(kept);
+}
+
 void drop_finished_ramps(ContactState& contact) {
   std::size_t kept = 0;
   for (const FieldRamp& ramp : contact.ramps) {
     const bool done = std::all_of(ramp.remaining.begin(), ramp.remaining.end(), [](Index n) { return n == 0; });
     contact.ramp_of_contactor[at(ramp.contactor)] = done ? -1 : static_cast<Index>(kept);
-    CornerSets& sets = contact.field[at(ramp.contactor)].sets;
     if (done) {
-      sets = largest_sets(sets) | (sets & kFractured);
+      end_ramp(contact.field[at(ramp.contactor)]);
     } else {
       contact.ramps[kept++] = FieldRamp(ramp);
     }
@@ -38,7 +65,7 @@ bool has_corner(unsigned set, std::size_t a) { return (set >> a & 1U) != 0; }
 /// Whether a set has three corners; without std::popcount, which is a call in the baseline instruction set.
 bool is_face(unsigned set) { return (kFaceSets >> set & 1U) != 0; }
 
-/// One function of an element on the surface. @param weight  of the set, 0 to 1
+/// The function of a set that fracture has added. @param weight  of the set, 0 to 1
 std::array<double, 4> row_of(const FieldValues& values, const std::array<double, 4>& height, unsigned set,
                              double weight) {
   std::array<double, 4> row = values.depth;
@@ -52,54 +79,30 @@ std::array<double, 4> row_of(const FieldValues& values, const std::array<double,
   return row;
 }
 
-/// Calls f(row) for each side of an element that cannot break: those of its own faces first.
+/// Calls f(row) for every function of an element: its faces, the further sides, what fracture has added.
+/// @param coming  of a ramp, or null: none
 template <class F>
-void for_each_distance(const FieldValues& values, const std::array<double, 4>& height, F&& f) {
+void for_each_function(const FieldValues& values, const std::array<double, 4>& height, int ramp_steps,
+                       const ComingSets* coming, F&& f) {
+  bool whole = false;  // one that counts in full
   for (const std::size_t a : {3, 2, 1, 0}) {
-    if ((values.sets >> (15U ^ 1U << a) & 1) == 0) continue;
+    if (!has_face(values.sides, a)) continue;
+    whole = true;
     std::array<double, 4> row{};
     row[a] = height[a];
     f(row);
   }
-  for (std::size_t k = 0; k < num_planes(values.sets); ++k) f(values.sides[k]);
-}
-
-OverlapShape exact_shape(const FieldValues& values, const std::array<double, 4>& height) {
-  OverlapShape shape;
-  for_each_distance(values, height, [&](const std::array<double, 4>& row) { shape.add(row); });
-  if (shape.rows == 0) shape.add(values.depth);
-  return shape;
-}
-
-OverlapFunction least_distance(const FieldValues& values, const std::array<double, 4>& height,
-                               const std::array<double, 4>& lambda) {
-  const auto value = [&](const std::array<double, 4>& row) {
-    return lambda[0] * row[0] + lambda[1] * row[1] + lambda[2] * row[2] + lambda[3] * row[3];
-  };
-  OverlapFunction least{value(values.depth), values.depth};
-  bool first = true;
-  for_each_distance(values, height, [&](const std::array<double, 4>& row) {
-    const double g = value(row);
-    if (first || g < least.g) least = {g, row};
-    first = false;
-  });
-  return least;
-}
-
-OverlapShape body_shape(const ContactParams& params, const std::array<double, 4>& height, const FieldValues& values,
-                        const ComingSets* coming) {
-  if (values.is_exact()) return exact_shape(values, height);
-  OverlapShape shape;
-  bool whole = false;  // a set that counts in full
-  const bool has_sides = (values.sets & kFractured) == 0;
-  for_each_side(values.sets, [&](unsigned set, int place) {
+  for (std::size_t k = 0; k < num_planes(values.sides); ++k) {
+    if (coming != nullptr && has_come_off(values, corners_on(values.planes[k]), *coming)) continue;
+    whole = true;
+    f(values.planes[k]);
+  }
+  for_each_set(values.sides, [&](unsigned set) {
     const Index remaining = coming != nullptr ? (*coming)[set] : 0;
     whole = whole || remaining == 0;
-    shape.add(row_of(values, height, set, 1 - static_cast<double>(remaining) / params.ramp_steps));
-    if (has_sides && 0 <= place && at(place) < kMostSides) shape.set_side(values.sides[at(place)]);
+    f(row_of(values, height, set, 1 - static_cast<double>(remaining) / ramp_steps));
   });
-  if (!whole) shape.add(values.depth);
-  return shape;
+  if (!whole) f(values.depth);
 }
 
 }  // namespace
@@ -134,17 +137,17 @@ FieldValues field_at_rest(OverlapField field, const Mesh& mesh, Index element, c
     values.depth[a] = surface.depth[at(node)];
     for (std::size_t i = 0; i < 3; ++i) values.normal[a][i] = surface.normal[at(node)][static_cast<Eigen::Index>(i)];
   }
-  values.sets = surface.sets[at(element)];
   values.sides = surface.sides[at(element)];
+  values.planes = surface.planes[at(element)];
   return values;
 }
 
 void free_corners(const ContactParams& params, Index contactor, unsigned set, ContactState& contact) {
   if (params.field != OverlapField::body) return;
-  CornerSets& sets = contact.field[at(contactor)].sets;
+  SurfaceSides& sides = contact.field[at(contactor)].sides;
   // The usual call is for corners that lie on the surface already: leave without touching the list of ramps.
-  if (covers(sets, set)) return;
-  sets |= 1 << set | kFractured;
+  if (on_one_face(sides, set)) return;
+  sides |= 1 << set;
   ramp_of(contactor, contact).remaining[set] = params.ramp_steps;
 }
 
@@ -156,26 +159,14 @@ void advance_field(ContactState& contact) {
   }
 }
 
-OverlapFunction least_function_of_sets(const std::array<double, 4>& height, const FieldValues& values,
+OverlapFunction least_of_all_functions(const std::array<double, 4>& height, const FieldValues& values,
                                        const std::array<double, 4>& lambda) {
-  if (values.is_exact()) return least_distance(values, height, lambda);
-  std::array<double, 4> by_depth{}, by_height{};
-  for (std::size_t a = 0; a < 4; ++a) {
-    by_depth[a] = lambda[a] * values.depth[a];
-    by_height[a] = lambda[a] * std::min(values.depth[a], height[a]);
-  }
-  double least = std::numeric_limits<double>::infinity();
-  unsigned set_of_least = 0;
-  for_each_set(values.sets, [&](unsigned set) {
-    const std::array<double, 4>& term = is_face(set) ? by_height : by_depth;
-    double g = 0;
-    for (std::size_t a = 0; a < 4; ++a) g += has_corner(set, a) ? 0.0 : term[a];
-    if (!(g < least)) return;
-    least = g;
-    set_of_least = set;
+  OverlapFunction least{std::numeric_limits<double>::infinity(), {}};
+  for_each_function(values, height, 1, nullptr, [&](const std::array<double, 4>& row) {
+    const double g = row_value(row, lambda);
+    if (g < least.g) least = {g, row};
   });
-  if (set_of_least == 0) return {by_depth[0] + by_depth[1] + by_depth[2] + by_depth[3], values.depth};
-  return {least, row_of(values, height, set_of_least, 1.0)};
+  return least;
 }
 
 OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, const ContactState& contact,
@@ -191,8 +182,12 @@ OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, 
 
 OverlapShape overlap_shape(const ContactParams& params, const std::array<double, 4>& height, const FieldValues& values,
                            double length, const ComingSets* coming) {
-  if (params.field == OverlapField::body) return body_shape(params, height, values, coming);
   OverlapShape shape;
+  if (params.field == OverlapField::body) {
+    for_each_function(values, height, params.ramp_steps, coming,
+                      [&](const std::array<double, 4>& row) { shape.add(row); });
+    return shape;
+  }
   std::array<double, 4> face{};
   switch (params.field) {
     case OverlapField::body:

@@ -11,22 +11,19 @@
 
 namespace breccia {
 
-/// The overlap field of a body, made of the depths D_a of its nodes (mesh/surface_depth.hpp) and, of every element, of
-/// the sets S of its corners that lie on one face of the free surface:
+/// The overlap field of a body. In an element that meets the surface it is the least of some linear functions:
 ///
-///   g = min_S sum_(a not in S) lambda_a D_a,   sum_a lambda_a D_a where the element has no corner on the surface
+///   g = min( lambda_a h_a   of each of its faces on the surface at rest, h_a the height of the opposite corner,
+///            sum_a lambda_a d_a   of each further side that it meets at rest (mesh/surface_planes.hpp),
+///            sum_(a not in S) lambda_a D_a   of each set S of its corners that fracture has brought onto the surface )
 ///
-/// Each sum is the distance to the surface that S lies on, exactly so where that is flat and D_a the distance to it: in
-/// a wall one element thick that cannot break, g is the distance to the nearer side. A face of an element that lies on
-/// the surface counts by its distance, D_a or the height above it if that is less. In a body that cannot break, g of an
-/// element at the surface is the least of its distances to the sides around it instead (mesh/surface_planes.hpp): exact
-/// beside edges too. On a face between two elements g
-/// depends on the nodes of the face alone, so it is continuous. For a lone tetrahedron g is the distance to its nearest
-/// face.
+/// and sum_a lambda_a D_a in elements inside, D_a the depths of the nodes (mesh/surface_depth.hpp). At rest it is the
+/// distance to the surface, exact and continuous beside edges too; of a face that fracture has freed D_a counts, or the
+/// height if that is less.
 ///
-/// Fracture adds sets: the corners of an element at the nodes of a freed face. A new set comes to count within
-/// ContactParams::ramp_steps steps: its own depths go from D_a to 0. The D_a themselves stay, so in what can break they
-/// are such that g is not steep wherever a crack will run.
+/// A new set comes to count within ContactParams::ramp_steps steps: its own depths go from D_a to 0. Sides at rest that
+/// an element meets with an edge or a corner count until all of its faces there are free: then it has come off what
+/// they belong to.
 ///
 /// H, the length that makes the overlap dimensionless, is the mean inradius of a body's elements.
 
@@ -53,49 +50,40 @@ enum class Instant { now, step_before };
 
 /// Whether the sides of a contactor are distinguished (rows_for in overlap.hpp).
 [[nodiscard]] inline bool has_sides(const ContactParams& params, const ContactState& contact, Index contactor) {
-  return params.field == OverlapField::body &&
-         (contact.field[static_cast<std::size_t>(contactor)].sets & kFractured) == 0;
-}
-
-/// Number of an element's faces on the surface.
-[[nodiscard]] inline std::size_t num_faces(CornerSets sets) {
-  const auto bit = [sets](int set) { return static_cast<std::size_t>(sets >> set & 1); };
-  return bit(7) + bit(11) + bit(13) + bit(14);
+  return params.field == OverlapField::body && !is_fractured(contact.field[static_cast<std::size_t>(contactor)].sides);
 }
 
 /// Whether it has more than one.
 [[nodiscard]] inline bool has_several_sides(const ContactParams& params, const ContactState& contact, Index contactor) {
-  const CornerSets sets = contact.field[static_cast<std::size_t>(contactor)].sets;
-  if (!has_sides(params, contact, contactor)) return false;
-  return (sets & kExact) == 0 ? (sets & (sets - 1)) != 0 : num_planes(sets) + num_faces(sets) > 1;
+  const SurfaceSides sides = contact.field[static_cast<std::size_t>(contactor)].sides;
+  return has_sides(params, contact, contactor) && num_planes(sides) + num_faces(sides) > 1;
 }
 
-/// One of the sums of an element.
+/// One of the functions of an element.
 struct OverlapFunction {
   double g = 0;                 ///< m, its value at a place
   std::array<double, 4> row{};  ///< m, its coefficients
 };
 
 /// Bits of CornerSets: sets of three corners, and the others.
-inline constexpr unsigned kFaceSets = 1U << 7 | 1U << 11 | 1U << 13 | 1U << 14;
-inline constexpr unsigned kSmallSets = ((1U << kNumCornerSets) - 2) & ~kFaceSets;
+inline constexpr CornerSets kFaceSets = 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14;
+inline constexpr CornerSets kSmallSets = kAllSets & ~kFaceSets;
 
-/// least_function() for any sets.
-[[nodiscard]] OverlapFunction least_function_of_sets(const std::array<double, 4>& height, const FieldValues& values,
+/// least_function() for any sides.
+[[nodiscard]] OverlapFunction least_of_all_functions(const std::array<double, 4>& height, const FieldValues& values,
                                                      const std::array<double, 4>& lambda);
 
-/// The least sum of the field `body` at lambda where no ramp runs: the same bits as by overlap_shape() and least_row(),
-/// without the others' coefficients. @param height  heights() of the element
+/// The least function of the field `body` at lambda where no ramp runs: the same bits as by overlap_shape() and
+/// least_row(), without the others' coefficients. @param height  heights() of the element
 [[nodiscard]] inline OverlapFunction least_function(const std::array<double, 4>& height, const FieldValues& values,
                                                     const std::array<double, 4>& lambda) {
-  const auto sets = static_cast<unsigned>(values.sets);
-  if ((sets & (kSmallSets | kExact)) != 0 || (sets & kFaceSets) == 0)
-    return least_function_of_sets(height, values, lambda);
-  // An element that meets the surface with faces alone, as all of what has come apart: each of its sums has one term.
+  const bool only_freed_faces = (values.sides & ~kFaceSets) == 0 && values.sides != 0;
+  if (!only_freed_faces) return least_of_all_functions(height, values, lambda);
+  // An element that meets the surface with freed faces alone, as all of what has come apart.
   double least = std::numeric_limits<double>::infinity();
   std::size_t opposite = 0;
   for (const std::size_t a : {3, 2, 1, 0}) {
-    if ((sets >> (15U ^ 1U << a) & 1U) == 0) continue;
+    if ((values.sides >> face_set(a) & 1) == 0) continue;
     const double g = lambda[a] * std::min(values.depth[a], height[a]);
     if (!(g < least)) continue;
     least = g;

@@ -17,6 +17,9 @@ namespace breccia {
 /// Overlaps of this share of H and less that the mesh comes with are round-off: bodies touch there without force.
 inline constexpr double kOverlapTolerance = 1e-6;
 
+/// Of an element: one for each face and for each side at rest, and one for each smaller set of corners.
+inline constexpr std::size_t kMostFunctions = 4 + kMostSides + 10;
+
 [[nodiscard]] inline PreparedTetra prepare(const std::array<Vec3, 4>& x, double reference_volume) {
   return prepared_tetra<double>(x, reference_volume);
 }
@@ -33,33 +36,19 @@ inline constexpr double kOverlapTolerance = 1e-6;
 }
 
 /// g of one element is the least of some linear functions sum_a row[a] lambda_a, m. Each is the distance to one side of
-/// the surface, whose normal is along the gradient of the function, or of another one where `side_of` names it.
+/// the surface, whose normal is along the gradient of the function.
 struct OverlapShape {
-  std::array<std::array<double, 4>, kNumCornerSets> row;
-  SideRows side;                                    ///< those other functions
-  std::array<std::int8_t, kNumCornerSets> side_of;  ///< (rows) index into `side`, -1: the function itself
-  std::size_t rows = 0, sides = 0;
+  std::array<std::array<double, 4>, kMostFunctions> row;
+  std::size_t rows = 0;
   OverlapShape() = default;
   OverlapShape(const OverlapShape& other) { *this = other; }
   /// Of those in use alone: most shapes have one or two.
   OverlapShape& operator=(const OverlapShape& other) {
     rows = other.rows;
-    sides = other.sides;
     std::copy_n(other.row.begin(), rows, row.begin());
-    std::copy_n(other.side_of.begin(), rows, side_of.begin());
-    std::copy_n(other.side.begin(), sides, side.begin());
     return *this;
   }
-  void add(const std::array<double, 4>& function) {
-    side_of[rows] = -1;
-    row[rows++] = function;
-  }
-  /// Of the last function; where it is zero the function itself decides. @pre fewer than kMostSides so far
-  void set_side(const std::array<double, 4>& function) {
-    if (function == std::array<double, 4>{}) return;
-    side_of[rows - 1] = static_cast<std::int8_t>(sides);
-    side[sides++] = function;
-  }
+  void add(const std::array<double, 4>& function) { row[rows++] = function; }
 };
 
 /// Overlap and its gradient with respect to the point; that with respect to corner a is -lambda_a gradient.
@@ -68,10 +57,13 @@ struct Overlap {
   Vec3 gradient{0, 0, 0};  ///< -, points inwards
 };
 
-/// A function's value, m. @pre 0 <= k < rows
-[[nodiscard]] inline double row_value(const OverlapShape& shape, std::size_t k, const std::array<double, 4>& lambda) {
-  const std::array<double, 4>& row = shape.row[k];
+/// A function's value, m.
+[[nodiscard]] inline double row_value(const std::array<double, 4>& row, const std::array<double, 4>& lambda) {
   return lambda[0] * row[0] + lambda[1] * row[1] + lambda[2] * row[2] + lambda[3] * row[3];
+}
+/// @pre 0 <= k < rows
+[[nodiscard]] inline double row_value(const OverlapShape& shape, std::size_t k, const std::array<double, 4>& lambda) {
+  return row_value(shape.row[k], lambda);
 }
 
 /// Gradient of a linear function of lambda with respect to the point. @param slope  its values at the corners
@@ -84,20 +76,14 @@ struct Overlap {
   return gradient;
 }
 
-/// That of one of the functions, which is inwards. @pre 0 <= k < rows
+/// That of one of the functions: inwards, against the normal of its side. @pre 0 <= k < rows
 [[nodiscard]] inline Vec3 row_gradient(const OverlapShape& shape, std::size_t k, const PreparedTetra& tetra) {
   return gradient_of(shape.row[k], tetra);
 }
 
-/// Against the normal of the side that a function belongs to, of any length. @pre 0 <= k < rows
-[[nodiscard]] inline Vec3 side_gradient(const OverlapShape& shape, std::size_t k, const PreparedTetra& tetra) {
-  const std::int8_t side = shape.side_of[k];
-  return gradient_of(side < 0 ? shape.row[k] : shape.side[static_cast<std::size_t>(side)], tetra);
-}
-
 /// Some of an element's functions: bit k for the k-th.
 using OverlapRows = std::uint32_t;
-inline constexpr OverlapRows kAllRows = (1U << kNumCornerSets) - 1;
+inline constexpr OverlapRows kAllRows = (1U << kMostFunctions) - 1;
 
 /// How much the sides of the surface face another face: by the cosine of the angle between their outward normals.
 enum class Facing : std::uint8_t {
@@ -131,31 +117,20 @@ struct Outward {
   return outward.corner == Vec3::Zero() ? face : std::max(face, facing(outward.corner, inward));
 }
 
-/// Some of an element's functions, and how their sides face.
-struct FacingRows {
-  OverlapRows rows = 0;
-  Facing facing = Facing::away;
-};
-
-/// The functions whose side of the surface faces a point the most; none if all face away.
-[[nodiscard]] inline FacingRows rows_facing(const OverlapShape& shape, const PreparedTetra& tetra,
-                                            const Outward& outward) {
-  FacingRows most;
-  for (std::size_t k = 0; k < shape.rows; ++k) {
-    const Facing here = facing(outward, side_gradient(shape, k, tetra));
-    if (here > most.facing) most = {.rows = 0, .facing = here};
-    if (here == most.facing && here != Facing::away) most.rows |= OverlapRows{1} << k;
-  }
-  return most;
-}
-
-/// The functions that apply to a point, where sides are distinguished: those whose side faces it the most,
-/// through which the point enters, also just beside an edge, where another side is nearer; all where there is none. Not
-/// for elements at cracks, whose new sides would produce energy if they were distinguished.
+/// The functions that apply to a point, where sides are distinguished: those whose side faces it the most, through
+/// which the point enters, also just beside an edge, where another side is nearer; all where there is none. Not for
+/// elements at cracks, whose new sides would produce energy if they were distinguished.
 [[nodiscard]] inline OverlapRows rows_for(const OverlapShape& shape, const PreparedTetra& tetra,
                                           const Outward& outward) {
-  const FacingRows most = rows_facing(shape, tetra, outward);
-  return most.rows != 0 ? most.rows : kAllRows;
+  OverlapRows rows = 0;
+  Facing most = Facing::barely;
+  for (std::size_t k = 0; k < shape.rows; ++k) {
+    const Facing here = facing(outward, row_gradient(shape, k, tetra));
+    if (here < most) continue;
+    rows = (here > most ? 0 : rows) | OverlapRows{1} << k;
+    most = here;
+  }
+  return rows != 0 ? rows : kAllRows;
 }
 
 /// The function that is the least at lambda, of those in `rows`; of equal ones the first.

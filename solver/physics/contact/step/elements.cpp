@@ -18,9 +18,9 @@ std::uint8_t held_corners(const ContactStepModel& model, Index slot) {
   return static_cast<std::uint8_t>(held);
 }
 
-std::int32_t field_sets(const ContactStepModel& model, Index slot) {
+std::int32_t surface_sides(const ContactStepModel& model, Index slot) {
   const Index contactor = model.state != nullptr ? model.state->contactor_of_slot[at(slot)] : -1;
-  return contactor >= 0 ? std::int32_t{model.state->field[at(contactor)].sets} : -1;
+  return contactor >= 0 ? std::int32_t{model.state->field[at(contactor)].sides} : -1;
 }
 
 /// Copies a part; whether anything is different.
@@ -70,7 +70,7 @@ void ContactElements::update(const ContactStepModel& model) {
     const bool same_held = known && !(is_shared ? shared_held : own_held);
     const Cause cause{.open = model.faces.open[at(s)],
                       .held = same_held ? entry.cause.held : held_corners(model, s),
-                      .sets = field_sets(model, s)};
+                      .sides = surface_sides(model, s)};
     if (known && entry.cause == cause && !(is_shared && all_shared)) continue;
     std::optional<ContactSurface>& surface = is_shared ? shared : own;
     if (!surface) surface.emplace(model, is_shared);

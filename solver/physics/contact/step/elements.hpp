@@ -15,7 +15,7 @@ class ContactElements {
   /// What an element with its own nodes depends on. Depths of the overlap field stay as they are.
   struct Cause {
     std::uint8_t open = 0, held = 0;  ///< bits of faces and of corners
-    std::int32_t sets = 0;            ///< of the overlap field; -1: there is none
+    std::int32_t sides = 0;           ///< of the overlap field; -1: there is none
     bool operator==(const Cause&) const = default;
   };
   /// Largest numbers of a volume group's elements so far.

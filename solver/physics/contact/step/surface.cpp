@@ -134,7 +134,8 @@ double ContactSurface::steepness(Index slot, int face) const {
   FieldValues values;
   values.depth.fill(std::numeric_limits<double>::max());  // where it is not known; the height is less
   if (contactor >= 0) values = model_.state->field[at(contactor)];
-  values.sets |= 1 << (15 ^ 1 << face);
+  const unsigned set = face_set(at(face));
+  if (!on_one_face(values.sides, set)) values.sides |= 1 << set;
   const double length = model_.body_length[at(mesh.slot_body[at(slot)])];
   const OverlapShape shape = overlap_shape(model_.params, heights(mesh, slot), values, length);
   double square = 0;

@@ -17,7 +17,7 @@ TEST(OverlapField, OfALoneTetrahedronIsMadeOfItsHeightsAndFaces) {
   const test::Scene scene(test::lone(test::regular_tetra(1.0)), {kPenalty, kInfinite, 1, 0, 1});
   const FieldValues& values = scene.contact.field.at(0);
   for (const double depth : values.depth) EXPECT_NEAR(depth, std::sqrt(2.0 / 3.0), kRoundOff);
-  EXPECT_EQ(values.sets, 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14 | kExact);
+  EXPECT_EQ(values.sides, kOwnFaces);
 }
 
 TEST(OverlapField, HasTheSameLeastFunctionHoweverItIsFound) {
@@ -32,13 +32,20 @@ TEST(OverlapField, HasTheSameLeastFunctionHoweverItIsFound) {
       height[a] = length(random);
       lambda[a] = length(random) - 0.1;  // outside as well
     }
-    // None in some: the depths alone.
-    values.sets = set % 16 == 0 ? kFractured : largest_sets(static_cast<CornerSets>(random() & 0x7FFE)) | kFractured;
+    // Nothing in some: the depths alone; in others fracture alone, or faces and further sides at rest as well.
+    if (set % 16 != 0) values.sides = largest_sets(static_cast<CornerSets>(random()) & kAllSets);
+    if (set % 3 != 0) {
+      values.sides |= static_cast<SurfaceSides>(random()) & kOwnFaces;
+      values.sides |= with_planes(random() % (kMostSides + 1));
+      for (std::size_t k = 0; k < num_planes(values.sides); ++k) {
+        for (std::size_t a = 0; a < 4; ++a) values.planes[k][a] = a == k % 4 ? 0.0 : length(random);
+      }
+    }
     const OverlapShape shape = overlap_shape(params, height, values, 1.0);
     const std::size_t least = least_row(shape, lambda);
     const OverlapFunction found = least_function(height, values, lambda);
-    ASSERT_EQ(found.g, row_value(shape, least, lambda)) << values.sets;
-    ASSERT_EQ(found.row, shape.row[least]) << values.sets;
+    ASSERT_EQ(found.g, row_value(shape, least, lambda)) << values.sides;
+    ASSERT_EQ(found.row, shape.row[least]) << values.sides;
   }
 }
 
@@ -85,7 +92,36 @@ TEST(OverlapField, ComesToCountAFreedFaceStepByStep) {
   }
   EXPECT_TRUE(scene.contact.ramps.empty());
   EXPECT_EQ(scene.contact.ramp_of_contactor[0], -1);
-  EXPECT_EQ(scene.contact.field[0].sets, 1 << freed.face | 1 << freed.set | kFractured) << "what they cover is dropped";
+  const SurfaceSides sides = scene.contact.field[0].sides;
+  EXPECT_EQ(sides & kAllSets, 1 << freed.set) << "what it covers is dropped";
+  EXPECT_TRUE(on_one_face(sides, freed.face));
+}
+
+TEST(OverlapField, ChangesWithItsRampsAloneAlsoWhereAnElementComesOffWhatLiesBesideIt) {
+  test::Scene scene(test::box({2, 2, 2}, 1.0), {kPenalty, kInfinite, 1, 0, 1});
+  scene.params.ramp_steps = 3;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  Index came_off = 0;
+  for (Index c = 0; c < static_cast<Index>(scene.contact.contactors.size()); ++c) {
+    std::array<double, 4> lambda{share(random), share(random), share(random), share(random)};
+    const double sum = lambda[0] + lambda[1] + lambda[2] + lambda[3];
+    for (double& l : lambda) l /= sum;
+    const auto g = [&](Instant instant) {
+      return overlap_value(overlap_shape(scene.params, scene.local, scene.contact, c, instant), lambda);
+    };
+    const bool met_more = num_planes(scene.contact.field[at(c)].sides) > 0;
+    for (std::size_t a = 0; a < 4; ++a) free_corners(scene.params, c, face_set(a), scene.contact);
+    double before = g(Instant::now);
+    for (int step = 0; step < 5; ++step) {
+      advance_field(scene.contact);
+      EXPECT_EQ(g(Instant::step_before), before) << "element " << c << ", step " << step;
+      before = g(Instant::now);
+    }
+    EXPECT_EQ(num_planes(scene.contact.field[at(c)].sides), 0U);
+    came_off += met_more ? 1 : 0;
+  }
+  EXPECT_GT(came_off, 10);
 }
 
 /// A small tetrahedron whose base sits at a depth of 0.03 under the top of a body of 3 x 3 x 3 cubes, which lean over,
@@ -131,8 +167,8 @@ void sink_field(test::Scene& scene, Index steps) {
   scene.params.ramp_steps = steps;
   for (const TouchingCouple& touching : scene.contact.touching) {
     FieldValues& field = scene.contact.field[at(touching.contactor)];
-    const auto sets = static_cast<unsigned>(field.sets) & ((1U << kNumCornerSets) - 1);
-    const auto surface = static_cast<unsigned>(std::bit_width(sets) - 1);
+    unsigned surface = 0;
+    for (std::size_t a = 0; a < 4; ++a) surface |= has_face(field.sides, a) ? face_set(a) : 0;
     // A corner on the surface: its depth counts for nothing yet.
     const std::size_t kept = opposite_to_top(scene, touching.contactor, surface);
     field.depth[kept] = kLeft;
@@ -222,15 +258,17 @@ TEST(CouplesOfFracture, OutlastAJointThatOpensBesideTheirElementAndAreCutOffFart
   // The neighbours are out of reach, as if they had moved away.
   const Index contactor = scene.contact.touching[0].contactor, slot = scene.contact.contactors[at(contactor)];
   scene.couple([&](Index s) { return scene.body(s) == 1; }, [&](Index s) { return s == slot; });
-  scene.contact.field[at(contactor)].sets |= kFractured;
   const auto corners = load_corners(scene.local, scene.state.position.data(), slot);
   const auto lambda = barycentric(
       prepare(corners, scene.local.volume[at(slot)]),
       at_point(face_rule(1), scene.contact.points[at(scene.contact.touching[0].point)], scene.state.position.data()));
   // From one corner on the surface to another one: at the same depth through the face opposite to the first.
   std::array<std::size_t, 2> on_surface{};
-  for (std::size_t a = 0, found = 0; a < 4 && found < 2; ++a) {
-    if (corners[a][2] > 3 - kRoundOff) on_surface[found++] = a;
+  for (std::size_t a = 0, found = 0; a < 4; ++a) {
+    const bool is_on_surface = corners[a][2] > 3 - kRoundOff;
+    if (is_on_surface && found < 2) on_surface[found++] = a;
+    // A crack has come to the corner inside, far from the point.
+    if (!is_on_surface) scene.contact.field[at(contactor)].sides |= 1 << (1U << a);
   }
   const Vec3 way = corners[on_surface[1]] - corners[on_surface[0]];
   const double force = scene.force_on(1)[2], stored = scene.work.stored.value();

@@ -34,7 +34,7 @@ ContactLaw law_of(double exponent, double friction, double damping) {
 std::vector<double> shake(const ContactLaw& law, Way way) {
   constexpr double kStep = 1e-5;
   Scene scene(joined(box({3, 2, 1}, 0.5), box({2, 2, 1}, 0.4, Vec3(0.2, 0.1, 0.4995))), law, 3);
-  for (FieldValues& values : scene.contact.field) values.sets |= kFractured;  // as debris: no sides that are told apart
+  for (FieldValues& values : scene.contact.field) values.sides = kFaceSets;  // as debris: no sides are distinguished
   scene.couple_bodies();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> some(-1.0, 1.0);

@@ -157,7 +157,7 @@ double largest_change_of_force(Drag& drag, double change, double step) {
     const auto x = load_corners(drag.scene.local, drag.scene.state.position.data(), contact.contactors[c]);
     if (0.25 * (x[0] + x[1] + x[2] + x[3])[0] < 2.5) continue;
     for (std::size_t a = 0; a < 4; ++a) contact.field[c].depth[a] = kTop - x[a][2] + change;
-    contact.field[c].sets = 0;
+    contact.field[c].sides = 0;
   }
   double before = drag.move({0, 0, 0})[2], largest = 0;
   for (int i = 0; i < 400; ++i) {

@@ -308,7 +308,7 @@ void expect_kept_elements_to_follow(Discretisation kind) {
   scene.move(1, {0, 0, -0.02});
   ContactState field;
   for (Index s = 0; s < scene.model.local.num_slots; ++s) field.contactor_of_slot.push_back(s);
-  field.field.assign(field.contactor_of_slot.size(), {.depth = {2, 3, 4, 5}, .sets = 0});
+  field.field.assign(field.contactor_of_slot.size(), {.depth = {2, 3, 4, 5}, .sides = 0});
   ContactElements known;
   const auto shares = [&](ContactElements* kept) {
     ContactStepModel model = scene.step_model();
@@ -330,7 +330,7 @@ void expect_kept_elements_to_follow(Discretisation kind) {
     return now;
   };
   auto last = expect_the_same_but_other_than(std::vector<std::array<double, 4>>{}, "at first");
-  for (FieldValues& values : field.field) values.sets = kFractured | 1 << 3;
+  for (FieldValues& values : field.field) values.sides = 1 << 3;
   last = expect_the_same_but_other_than(last, "a new side");
   std::fill(scene.faces.open.begin(), scene.faces.open.end(), std::uint8_t{15});
   last = expect_the_same_but_other_than(last, "open faces");
