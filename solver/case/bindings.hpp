@@ -178,7 +178,6 @@ void bind(A& a, ContactPoints& points) {
   a.choice("field", points.field);
   if constexpr (A::reads) points.everywhere = !a.has("surfaces");
   if (!points.everywhere) a.value("surfaces", points.surfaces);
-  a.value("field_ramp_steps", points.field_ramp_steps);
 }
 
 template <class A>

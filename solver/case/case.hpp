@@ -188,7 +188,6 @@ struct ContactPoints {
   OverlapField field = OverlapField::body;
   bool everywhere = true;  ///< false: only faces of `surfaces`
   std::vector<std::string> surfaces;
-  int field_ramp_steps = 50;  ///< steps over which the overlap field follows a new free surface
   Origin origin;
   friend bool operator==(const ContactPoints&, const ContactPoints&) = default;
 };

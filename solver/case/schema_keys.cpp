@@ -295,9 +295,6 @@ constexpr auto model_keys = std::to_array<Key>({
              "of each tetrahedron.", .example = "\"tet_potential\""},
     {.path = "contact_points.surfaces", .type = text_list,
      .help = "Surfaces whose faces carry contact points; without this key all free faces do.", .example = "[\"slit\"]"},
-    {.path = "contact_points.field_ramp_steps", .type = integer, .fallback = "50", .range = count,
-     .help = "Steps over which the overlap field adapts to a new fracture surface.", .example = "100",
-     .fixed_by_state = may_change},
 
     {.path = "sphere", .type = section, .help = "A spherical boundary that encloses the model.",
      .fixed_by_state = "points of the state press on it at this place"},

@@ -74,12 +74,6 @@ void ContactSearch::restore_contactors(const Records& records) {
     contact_.field.push_back(records.elements[at(e)].field);
   }
   set_contactors(model.local, std::move(slots), contact_);
-  for (const RampRecord& record : records.ramps) {
-    FieldRamp ramp = record.ramp;
-    ramp.contactor = contact_.contactor_of_slot[at(model.slot_of(records.place_of(record.element)))];
-    contact_.ramp_of_contactor[at(ramp.contactor)] = static_cast<Index>(contact_.ramps.size());
-    contact_.ramps.push_back(ramp);
-  }
 }
 
 /// Faces that fracture has freed.
@@ -156,8 +150,6 @@ void ContactSearch::store(Index element, ElementRecord& record, Records& records
   if (contactor >= 0) {
     record.contactor = 1;
     record.field = contact_.field[at(contactor)];
-    const Index ramp = contact_.ramp_of_contactor[at(contactor)];
-    if (ramp >= 0) records.ramps.push_back({record.id, contact_.ramps[at(ramp)]});
   }
   const GlobalId first = kPointsAnElement * record.id, end = first + kPointsAnElement;
   for (const Index point : entries_of(contact_.order, first, end, [&](Index p) { return contact_.id(p); })) {

@@ -33,19 +33,13 @@ bool is_possible(const ElementRecord& r, const WholeModel& whole) {
   return within(r.id, whole.num_elements) && within(r.group, whole.volume_groups) &&
          within(r.body, whole.body_length) && all(r.vertex, [](GlobalId node) { return node >= 0; }) &&
          all(r.neighbour, [&](GlobalId element) { return element < whole.num_elements; }) &&
-         all(r.code, [](std::int8_t code) { return within(code, kCodes); });
+         all(r.code, [](std::int8_t code) { return within(code, kCodes); }) && r.field.sides >= 0 &&
+         num_planes(r.field.sides) <= kMostSides;
 }
 
 bool is_possible(const JointRecord& r, const WholeModel& whole) {
   return within(r.other, whole.num_elements) && within(r.joint.face_a, kFaces) && within(r.joint.code, kCodes) &&
          within(r.joint.law, whole.num_joint_laws());
-}
-
-bool is_possible(const RampRecord& r, const Records& records) {
-  const Index place = records.place_of(r.element);
-  const auto not_negative = [](Index steps) { return steps >= 0; };
-  return place >= 0 && records.elements[static_cast<std::size_t>(place)].contactor != 0 &&
-         all(r.ramp.remaining, not_negative) && all(r.ramp.before, not_negative);
 }
 
 bool is_possible(const OffsetRecord& r, const Records& records) {
@@ -71,7 +65,6 @@ bool are_possible(const Records& records, const WholeModel& whole) {
          all(records.joints, [&](const JointRecord& r) { return is_possible(r, whole); }) &&
          all(records.released, [](const ReleasedRecord& r) { return within(r.joint.face_a, kFaces); }) &&
          all(records.couples, [&](const CoupleRecord& r) { return within(r.contactor, whole.num_elements); }) &&
-         all(records.ramps, [&](const RampRecord& r) { return is_possible(r, records); }) &&
          all(records.offsets, [&](const OffsetRecord& r) { return is_possible(r, records); }) &&
          all(records.holds,
              [](const HoldRecord& r) { return within(r.corner, kCorners) && within(r.axis, kAxes) && r.entry >= 0; }) &&

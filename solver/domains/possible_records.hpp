@@ -11,7 +11,7 @@
 namespace breccia {
 
 /// Whether every index of the records points to something that the model has: elements, groups, bodies, joint laws,
-/// faces, corners and axes; ramps belong to contactors and offsets to points of their elements, all among the records.
+/// faces, corners and axes; offsets belong to points of their elements, which are among the records.
 /// Entries of constraints are only known to be no less than 0: demand_constraints. O(records log records).
 [[nodiscard]] bool are_possible(const Records& records, const WholeModel& whole);
 

@@ -201,7 +201,6 @@ ContactParams contact_params(const case_::Case& input, const std::vector<std::st
   params.points_per_face = input.contact_points.per_face;
   params.points_everywhere = input.contact_points.everywhere;
   params.field = field_of(input.contact_points.field);
-  params.ramp_steps = input.contact_points.field_ramp_steps;
   params.num_groups = static_cast<Index>(groups.size());
   params.laws.resize(groups.size() * groups.size());
   params.initial_overlaps.resize(params.laws.size(), InitialOverlap::accept);

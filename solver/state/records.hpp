@@ -127,23 +127,6 @@ struct FieldTable<CoupleRecord> {
 }
 ;
 
-/// A contactor whose overlap field is on the move.
-struct RampRecord {
-  GlobalId element = 0;
-  FieldRamp ramp;
-};
-template <>
-struct FieldTable<RampRecord> {
-  // clang-format off
-  static constexpr auto rows = std::tuple{
-      FieldRow{"element", "1", kState, [](auto& r) -> auto& { return r.element; }},
-      FieldRow{"remaining", "1", kState, [](auto& r) -> auto& { return r.ramp.remaining; }},
-      FieldRow{"before", "1", kState, [](auto& r) -> auto& { return r.ramp.before; }},
-  };
-// clang-format on
-}
-;
-
 /// A contact point's offset outside the spherical boundary.
 struct OffsetRecord {
   GlobalId element = 0, point = 0;
@@ -238,7 +221,6 @@ struct Records {
   std::vector<JointRecord> joints;
   std::vector<ReleasedRecord> released;
   std::vector<CoupleRecord> couples;
-  std::vector<RampRecord> ramps;
   std::vector<OffsetRecord> offsets;
   std::vector<HoldRecord> holds;
   std::vector<HeldRecord> held;
@@ -250,16 +232,12 @@ struct Records {
 };
 
 /// The lists of the records by name.
-inline constexpr std::tuple kRecordLists{std::pair{"element", &Records::elements},
-                                         std::pair{"joint", &Records::joints},
-                                         std::pair{"released_joint", &Records::released},
-                                         std::pair{"couple", &Records::couples},
-                                         std::pair{"field_ramp", &Records::ramps},
-                                         std::pair{"boundary_offset", &Records::offsets},
-                                         std::pair{"hold", &Records::holds},
-                                         std::pair{"held_force", &Records::held},
-                                         std::pair{"surface_face", &Records::faces},
-                                         std::pair{"surface_corner", &Records::corners}};
+inline constexpr std::tuple kRecordLists{
+    std::pair{"element", &Records::elements},        std::pair{"joint", &Records::joints},
+    std::pair{"released_joint", &Records::released}, std::pair{"couple", &Records::couples},
+    std::pair{"boundary_offset", &Records::offsets}, std::pair{"hold", &Records::holds},
+    std::pair{"held_force", &Records::held},         std::pair{"surface_face", &Records::faces},
+    std::pair{"surface_corner", &Records::corners}};
 
 /// Calls visit(name, list) for every list of the records.
 template <class R, class Visit>

@@ -91,7 +91,7 @@ void set_contactors(const LocalMesh& local, std::vector<Index> slots, ContactSta
   for (std::size_t c = 0; c < contact.contactors.size(); ++c) {
     contact.contactor_of_slot[static_cast<std::size_t>(contact.contactors[c])] = static_cast<Index>(c);
   }
-  contact.ramp_of_contactor.assign(contact.contactors.size(), -1);
+  contact.change_of_contactor.assign(contact.contactors.size(), -1);
   contact.elements = StepElements(local.num_slots);
 }
 

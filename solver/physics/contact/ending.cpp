@@ -69,9 +69,7 @@ EndedCouples::Escape EndedCouples::escape_of(const TouchingCouple& old, const Co
   // By the sides of the last step: those of now may be others, where a body rolls and a side has turned away.
   const bool has_sides = view_.has_sides(contactor);
   const auto depth_by_sides = [&] { return overlap_value(view_.shape_of(contactor), lambda, sides_of(old.history)); };
-  const double overlap = has_sides                     ? depth_by_sides()
-                         : view_.is_growing(contactor) ? overlap_value(view_.shape_of(contactor), lambda)
-                                                       : view_.least_function_of(contactor, lambda).g;
+  const double overlap = has_sides ? depth_by_sides() : view_.least_function_of(contactor, lambda).g;
   if (!(overlap > 0)) return {overlap, 0.0, false};
   const PairHistory<double>& last = old.history;
   const double work = has_sides ? 0.5 * (last.force - last.friction).dot(motion) : 0.0;

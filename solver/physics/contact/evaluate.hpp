@@ -105,7 +105,7 @@ template <class T>
   const T stored = normal_law::stored(pair.law, h.d, h.d_max, pair.whole_exponent);
   grown.offset = greater(T(0.0), T(h.offset + (pair.overlap - pair.overlap_before)));
   static_cast<void>(go_to(pair, pair.overlap, grown));
-  // d does not rise here: the difference is negative by round-off only.
+  grown.d = lesser(grown.d, h.d);  // it rises by round-off only
   const T released =
       scale * greater(T(0.0), T(stored - normal_law::stored(pair.law, grown.d, grown.d_max, pair.whole_exponent)));
   h.offset = select(grows, grown.offset, h.offset);

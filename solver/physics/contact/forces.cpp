@@ -34,7 +34,6 @@ ContactKernels kernels_for(Simd simd) {
 void contact_forces(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
                     ContactState& contact, NodalForces& forces, ContactWork& work, Simd simd, bool side_by_side) {
   const ContactKernels kernels = side_by_side ? kernels_for(simd) : contact_kernels_scalar();
-  advance_field(contact);
   contact.touching_before.swap(contact.touching);
   contact.touching.clear();
   work.stored = work.friction_stored = ExactSum{};
@@ -55,6 +54,7 @@ void contact_forces(const ContactParams& params, const LocalMesh& local, const N
   queue.finish();
   view.store_forces();
   contact.fresh.clear();
+  end_changes(contact);
 }
 
 }  // namespace breccia

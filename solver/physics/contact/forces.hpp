@@ -37,14 +37,14 @@ struct ContactWork {
 /// and dissipated energy; a change of the normal force corrects it (correction.hpp), after separation (d = 0) a small
 /// pull.
 /// Rules of sides, histories and first overlaps: resolve.hpp and solver/manual/theory/contact.md.
-/// First, the ramps of the field advance by one step. The offset of a couple follows a change of g due to the field
-/// alone, down to 0 at least: a rising field exerts no force, a falling one releases stored energy, which is
-/// dissipated.
+/// The offset of a couple follows a change of g due to the field alone (ContactState::changed), down to 0 at least: a
+/// rising field exerts no force, a falling one releases stored energy, which is dissipated.
 /// Couples that cannot touch (ContactCouple::apart_until, ContactState::travel) are skipped: bitwise the same.
 ///
 /// @param state    position at t_n, velocity at t_(n-1/2)
 /// @param dt       s, from t_(n-1) to t_n
-/// @param contact  couples sorted; histories, field, list of awake couples and scratch are written, `fresh` is emptied
+/// @param contact  couples sorted; histories, field, list of awake couples and scratch are written, `fresh` and
+///                 `changed` emptied
 /// @param forces   added to, in the order (point id, contactor)
 /// @param simd     available.  @param side_by_side  false: one couple after the other. Bitwise the same
 /// @pre dt >= 0; couples hold every pair that touches. O(couples) + O(points) with a sphere. Throws nothing.

@@ -35,7 +35,6 @@ struct ContactParams {
   int points_per_face = 4;        ///< 1, 3, 4 or 6
   bool points_everywhere = true;  ///< on all free faces, not on some surfaces alone
   OverlapField field = OverlapField::body;
-  int ramp_steps = 50;           ///< >= 1: steps in which the overlap field follows a new free surface
   Index num_groups = 0;          ///< volume groups
   std::vector<ContactLaw> laws;  ///< (num_groups, num_groups): of points of a group against contactors of another
   std::vector<InitialOverlap> initial_overlaps;  ///< likewise

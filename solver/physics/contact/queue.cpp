@@ -147,7 +147,7 @@ void PairQueue::evaluate() {
 void PairQueue::adjust(std::size_t lane) {
   const auto& [index, place, candidate, offset, law] = lanes_[lane];
   const bool presses = candidate.old >= 0 && block_.history.d[lane] > 0;
-  if (!presses || block_.same_slope[lane] == 0 || view_.is_growing(candidate.contactor)) {
+  if (!presses || block_.same_slope[lane] == 0 || view_.is_changed(candidate.contactor)) {
     const Adjusted now = resolver_.adjust(index, candidate, history_before(candidate), vector_of(block_.motion, lane),
                                           vector_of(block_.gradient, lane));
     block_.history.offset[lane] = now.offset;

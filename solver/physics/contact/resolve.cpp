@@ -21,7 +21,7 @@ void Resolver::finish() {
 
 Candidate Resolver::candidate_of(const ContactPoint& point, Index contactor,
                                  const std::array<double, 4>& lambda) const {
-  if (!view_.is_growing(contactor) && !view_.has_several_sides(contactor)) {
+  if (!view_.is_changed(contactor) && !view_.has_several_sides(contactor)) {
     const OverlapFunction least = view_.least_function_of(contactor, lambda);
     return {contactor, lambda, kAllRows, least.row, least.g, least.g};
   }
@@ -30,7 +30,7 @@ Candidate Resolver::candidate_of(const ContactPoint& point, Index contactor,
   const std::size_t least = least_row(shape, lambda, rows);
   const double g = row_value(shape, least, lambda);
   Candidate candidate{contactor, lambda, rows, shape.row[least], g, g};
-  if (view_.is_growing(contactor))
+  if (view_.is_changed(contactor))
     candidate.g_before = overlap_value(view_.shape_of(contactor, Instant::step_before), lambda, rows);
   return candidate;
 }
@@ -46,7 +46,7 @@ OverlapRows Resolver::sides_for(const ContactPoint& point, Index contactor) cons
   return rows_for(view_.shape_of(contactor), view_.tetra_of(contactor), view_.outward_of(point));
 }
 
-/// Adds the contactor to the candidates of a point if its overlap is positive now or was so before the field moved.
+/// Adds the contactor to the candidates of a point if its overlap is positive now or was so before the field changed.
 void Resolver::consider(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda) {
   const Candidate candidate = candidate_of(point, contactor, lambda);
   if (candidate.g > 0 || candidate.g_before > 0) candidates_.push_back(candidate);
@@ -164,7 +164,7 @@ Adjusted Resolver::adjust(Index point, const Candidate& candidate, const PairHis
 }
 
 Vec3 Resolver::gradient_before(const Candidate& candidate, const Vec3& gradient) const {
-  if (!view_.is_growing(candidate.contactor)) return gradient;
+  if (!view_.is_changed(candidate.contactor)) return gradient;
   const OverlapShape& shape = view_.shape_of(candidate.contactor, Instant::step_before);
   return overlap(shape, view_.tetra_of(candidate.contactor), candidate.lambda, candidate.rows).gradient;
 }

@@ -72,13 +72,10 @@ struct FieldValues {
   bool operator==(const FieldValues&) const = default;
 };
 
-/// Steps until a set of corners counts in full, by set; 0: it does, or is not there.
-using ComingSets = std::array<Index, kNumCornerSets>;
-
-/// A contactor whose field follows a new free surface: sets of corners come to count. `before`: one step ago.
-struct FieldRamp {
+/// A contactor whose field fracture has changed.
+struct ChangedField {
   Index contactor = 0;
-  ComingSets remaining{}, before{};
+  FieldValues before;
 };
 
 /// Force of the spherical boundary on a point.
@@ -109,9 +106,9 @@ struct ContactState {
   std::vector<std::uint8_t> relevant;  ///< (num_slots) 1: forces on it are evaluated on this rank; empty: on all
 
   // Overlap field.
-  std::vector<FieldValues> field;        ///< (contactors)
-  std::vector<FieldRamp> ramps;          ///< in no order: no sum goes over them
-  std::vector<Index> ramp_of_contactor;  ///< (contactors) index into `ramps`, -1: none
+  std::vector<FieldValues> field;          ///< (contactors)
+  std::vector<ChangedField> changed;       ///< since the last forces, in no order: no sum goes over them
+  std::vector<Index> change_of_contactor;  ///< (contactors) index into `changed`, -1: none
 
   // History and forces of the last step.
   std::vector<TouchingCouple> touching;  ///< by (point id, contactor)

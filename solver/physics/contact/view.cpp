@@ -127,7 +127,7 @@ void ContactView::store_forces() {
 }
 
 const OverlapShape& ContactView::shape_of(Index contactor, Instant instant) const {
-  if (!is_growing(contactor)) instant = Instant::now;
+  if (!is_changed(contactor)) instant = Instant::now;
   if (contactor != shape_of_ || instant != shape_at_) {
     shape_ = overlap_shape(params_, local_, contact_, contactor, instant);
     shape_of_ = contactor;

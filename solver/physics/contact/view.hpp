@@ -87,7 +87,7 @@ class ContactView {
   [[nodiscard]] const PreparedTetra& tetra_of(Index contactor) { return element(slot_of(contactor)).tetra; }
 
   /// Whether the overlap field of a contactor changes in this step.
-  [[nodiscard]] bool is_growing(Index contactor) const { return contact_.ramp_of_contactor[at(contactor)] >= 0; }
+  [[nodiscard]] bool is_changed(Index contactor) const { return contact_.change_of_contactor[at(contactor)] >= 0; }
   [[nodiscard]] bool has_sides(Index contactor) const {
     return rules().facing_sides && breccia::has_sides(params_, contact_, contactor);
   }
@@ -96,7 +96,7 @@ class ContactView {
   }
   /// The overlap functions of a contactor; valid until the next call.
   [[nodiscard]] const OverlapShape& shape_of(Index contactor, Instant instant = Instant::now) const;
-  /// The overlap function of a contactor that counts at lambda, of all. @pre it is not growing
+  /// The overlap function of a contactor that counts at lambda, of all.
   [[nodiscard]] OverlapFunction least_function_of(Index contactor, const std::array<double, 4>& lambda) const;
 
   /// A contactor and the place of a point in it one step ago.

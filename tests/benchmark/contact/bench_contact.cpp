@@ -34,7 +34,7 @@ struct Rule {
   void (*switch_off)(ContactParams& params);
 };
 
-/// What can be switched off. `fade_in` is the ramp of the field at freed faces, which a key of the case sets.
+/// What can be switched off.
 constexpr auto kRules = std::to_array<Rule>({
     {"correction", [](ContactParams& params) { params.rules.correction = false; }},
     {"steep_correction", [](ContactParams& params) { params.rules.steep_correction = false; }},
@@ -53,7 +53,6 @@ constexpr auto kRules = std::to_array<Rule>({
     {"bridge_gaps", [](ContactParams& params) { params.rules.bridge_gaps = false; }},
     {"one_of_neighbours", [](ContactParams& params) { params.rules.one_of_neighbours = false; }},
     {"first_offset", [](ContactParams& params) { params.rules.first_offset = false; }},
-    {"fade_in", [](ContactParams& params) { params.ramp_steps = 1; }},
 });
 
 /// CPU time of this process, s.

@@ -143,7 +143,6 @@ initial_overlap = "relax"
 per_face = 6
 field = "tet_distance"
 surfaces = ["slit", "top"]
-field_ramp_steps = 7
 [sphere]
 centre = [0, 0, "1 m"]
 radius = "2 m"

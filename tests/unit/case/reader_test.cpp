@@ -154,7 +154,6 @@ TEST(Reader, ContactsAndTheSphereAreRead) {
   EXPECT_EQ(c.contact_points.field, OverlapField::tet_distance);
   EXPECT_FALSE(c.contact_points.everywhere);
   EXPECT_EQ(c.contact_points.surfaces, (std::vector<std::string>{"slit", "top"}));
-  EXPECT_EQ(c.contact_points.field_ramp_steps, 7);
   ASSERT_TRUE(c.sphere.has_value());
   EXPECT_EQ(c.sphere->centre, Vec3(0, 0, 1));
   EXPECT_EQ(c.sphere->radius, 2);

@@ -92,7 +92,6 @@ TEST(FaceRelease, BothSidesOfAFaceAreFreedOnceHoweverOftenItIsNamed) {
 
 TEST(FaceRelease, TheFieldSinksAroundABodyThatBreaksUp) {
   BreakingBoxes model(test::box({1, 1, 1}, 1.0));
-  model.params.ramp_steps = 3;
   std::mt19937_64 random(1);
   OwnedContact search = model.make();
   search.update(model.state, 0, 0);

@@ -142,22 +142,25 @@ TEST(Records, ThatPointBeyondTheirModelAreNotPossible) {
   EXPECT_THROW(demand_possible("a.h5", cut, sound), InputError);
 }
 
-TEST(Records, OfContactAreNotPossibleWithoutTheirContactorsAndPoints) {
+TEST(Records, OfContactAreNotPossibleWithoutTheirPointsOrWithMoreSidesThanAnElementHas) {
   const Mesh mesh = cubes();
   Records sound = records_of(mesh, build_topology(mesh));
   WholeModel whole = whole_of(mesh);
   whole.num_elements = mesh.num_elements();
   whole.joint_groups.push_back({0, 0, 1.0});
   sound.elements[2].contactor = 1;
-  sound.ramps.push_back({2, {}});
-  sound.ramps[0].ramp.remaining[3] = 7;
+  sound.elements[2].field.sides = kOwnFaces | with_planes(kMostSides);
   sound.offsets = {{5, 24 * 5, 0.5}, {5, 24 * 5 + 23, 0.5}};
   EXPECT_TRUE(are_possible(sound, whole));
   const std::vector<std::function<void(Records&)>> faults{
-      [](Records& r) { r.elements[2].contactor = 0; },       [](Records& r) { r.ramps[0].element = 999; },
-      [](Records& r) { r.ramps[0].ramp.remaining[3] = -1; }, [](Records& r) { r.ramps[0].ramp.before[0] = -9; },
-      [](Records& r) { r.offsets[0].point = 24 * 5 - 1; },   [](Records& r) { r.offsets[1].point = 24 * 6; },
-      [](Records& r) { r.offsets[0].point = -1; },           [](Records& r) { r.offsets[0] = {999, 24 * 999, 0.5}; }};
+      [](Records& r) { r.elements[2].field.sides = with_planes(kMostSides + 1); },
+      [](Records& r) { r.elements[2].field.sides = -1; },
+      [](Records& r) { r.offsets[0].point = 24 * 5 - 1; },
+      [](Records& r) { r.offsets[1].point = 24 * 6; },
+      [](Records& r) { r.offsets[0].point = -1; },
+      [](Records& r) {
+        r.offsets[0] = {999, 24 * 999, 0.5};
+      }};
   for (std::size_t f = 0; f < faults.size(); ++f) {
     Records changed = sound;
     faults[f](changed);

@@ -21,9 +21,8 @@ namespace breccia {
 /// distance to the surface, exact and continuous beside edges too; of a face that fracture has freed D_a counts, or the
 /// height if that is less.
 ///
-/// A new set comes to count within ContactParams::ramp_steps steps: its own depths go from D_a to 0. Sides at rest that
-/// an element meets with an edge or a corner count until all of its faces there are free: then it has come off what
-/// they belong to.
+/// Sides at rest that an element meets with an edge or a corner count until all of its faces there are free: then it
+/// has come off what they belong to.
 ///
 /// H, the length that makes the overlap dimensionless, is the mean inradius of a body's elements.
 
@@ -39,12 +38,12 @@ void build_field(const ContactParams& params, const Mesh& mesh, const LocalMesh&
 /// fields other than `body`, or when they lie on one already.
 void free_corners(const ContactParams& params, Index contactor, unsigned set, ContactState& contact);
 
-/// One step of all ramps; what they were is kept in FieldRamp::before until the next call. O(ramps).
-void advance_field(ContactState& contact);
+/// What fields were before the last changes is forgotten.
+void end_changes(ContactState& contact);
 
 enum class Instant { now, step_before };
 
-/// Coefficients of g for a contactor, its ramps included.
+/// Coefficients of g for a contactor.
 [[nodiscard]] OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local,
                                          const ContactState& contact, Index contactor, Instant instant = Instant::now);
 
@@ -73,7 +72,7 @@ inline constexpr CornerSets kSmallSets = kAllSets & ~kFaceSets;
 [[nodiscard]] OverlapFunction least_of_all_functions(const std::array<double, 4>& height, const FieldValues& values,
                                                      const std::array<double, 4>& lambda);
 
-/// The least function of the field `body` at lambda where no ramp runs: the same bits as by overlap_shape() and
+/// The least function of the field `body` at lambda: the same bits as by overlap_shape() and
 /// least_row(), without the others' coefficients. @param height  heights() of the element
 [[nodiscard]] inline OverlapFunction least_function(const std::array<double, 4>& height, const FieldValues& values,
                                                     const std::array<double, 4>& lambda) {
@@ -95,9 +94,8 @@ inline constexpr CornerSets kSmallSets = kAllSets & ~kFaceSets;
 }
 
 /// Coefficients of g for one element. @param height  heights() of it;  @param length  H of its body, m
-/// @param coming  of a ramp, or null: none
 [[nodiscard]] OverlapShape overlap_shape(const ContactParams& params, const std::array<double, 4>& height,
-                                         const FieldValues& values, double length, const ComingSets* coming = nullptr);
+                                         const FieldValues& values, double length);
 
 /// Heights of an element's corners above their opposite faces, at rest, m.
 [[nodiscard]] std::array<double, 4> heights(const LocalMesh& local, Index slot);

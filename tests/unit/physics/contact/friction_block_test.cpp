@@ -163,7 +163,6 @@ TEST(Friction, ASpringThatLetsGoInAnotherGroupGivesBackWhatItHeldUnderItsOwnLaw)
   scene.set_velocity(grain, Vec3::Zero());
   scene.shift(grain, Vec3::Constant(0.3));
   const std::size_t second = at(scene.contact.contactor_of_slot[at(scene.local.slot_of_element[1])]);
-  scene.params.ramp_steps = 1;
   scene.contact.field[second] = {{1, 1, 1, 0}, 0};
   free_corners(scene.params, static_cast<Index>(second), 7, scene.contact);
   scene.evaluate(kStep);
