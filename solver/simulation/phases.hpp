@@ -4,7 +4,8 @@
 
 namespace breccia {
 
-// The phases of a step in their order (simulation/step.cpp). Each states its input and output.
+// The phases of a step in their order (simulation/step.cpp). Those that a rank does alone take what they read and
+// write; those that exchange something, and the sweep, which sends between its parts, take the domain.
 
 /// Whether the step to come is the first of a stage whose loads and constraints follow on other ones.
 [[nodiscard]] inline bool begins_stage(const State& state) {
@@ -18,14 +19,13 @@ void receive_signals(Domain& domain);
 /// that any rank released a step ago. Positions of proxies, and what is exchanged in every step, go with them.
 void update_couples(Domain& domain);
 
-/// Writes forces: pressures at t_n; keeps gravity at t_n for the sweep. Accounts the work of both up to t_n.
-void apply_loads(Domain& domain);
+/// Writes scratch.forces: pressures and forces at t_n; keeps gravity at t_n for the sweep. Accounts the work of all up
+/// to t_n.
+void apply_loads(const LocalMesh& local, State& state, StepScratch& scratch);
 
-/// Adds the forces of the active joints and brings their histories up to date; released ones leave state.joints.active.
-void joint_forces(Domain& domain);
-
-/// Adds the forces of all couples and brings their histories up to date.
-void contact_forces(Domain& domain);
+/// Adds the forces of the active joints and brings their histories up to date. Reads state.nodes; released joints leave
+/// state.joints.active, and those of originals are noted in state.signals for the other ranks.
+void joint_forces(const Model& model, Simd simd, State& state, NodalForces& forces);
 
 /// Sends the signals of this rank to all others, received in the next step.
 void send_signals(const StepSignals& signals, Domain& domain);
@@ -35,9 +35,6 @@ void send_signals(const StepSignals& signals, Domain& domain);
 /// are noted in scratch.crossed.
 /// @param sample  work after t_n is kept apart until account_late_work()
 void move_nodes(bool sample, Domain& domain);
-
-/// Joints noted by the sweep join the active list.
-void activate_crossed_joints(Domain& domain);
 
 /// Whether t_n lies between steps of different lengths.
 [[nodiscard]] inline bool changes_step(const Clock& clock) {
@@ -52,11 +49,12 @@ void account_step_change(Domain& domain);
 /// @pre scratch.velocity_before is v_(n-1/2). Throws what any rank failed with.
 void sample_energies(Domain& domain);
 
-/// Joints that are as if nothing had happened return to the sweep, which evaluates them at lower cost.
-void return_elastic_joints(Domain& domain);
+/// Elastic joints return to the sweep, which evaluates them at lower cost. @param elastic  found by joint_forces()
+void return_elastic_joints(const LocalMesh& local, std::span<const ElasticJoint> elastic, ActiveJoints& active,
+                           JointLinks& links);
 
 /// Work of pressures and constraints, and of what the sweep accounts, after t_n.
-void account_late_work(Domain& domain);
+void account_late_work(const LocalMesh& local, const StepScratch& scratch, State& state);
 
 /// Waits for the proxies' next positions and velocities.
 void receive_proxies(Domain& domain);
