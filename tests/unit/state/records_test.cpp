@@ -83,7 +83,6 @@ TEST(FieldTable, HasARowForEveryMemberOfEveryRecord) {
   EXPECT_EQ(bytes_without_row<JointRecord>(), gaps(2 + 7) + 2 * sizeof(Index));  // slots of its sides
   EXPECT_EQ(bytes_without_row<ReleasedRecord>(), gaps(2) + sizeof(Index));       // slot of side a
   EXPECT_EQ(bytes_without_row<CoupleRecord>(), 2 * sizeof(Index));               // point and contactor
-  EXPECT_EQ(bytes_without_row<RampRecord>(), gaps(4) + sizeof(Index));           // contactor
   EXPECT_EQ(bytes_without_row<OffsetRecord>(), 0U);
   EXPECT_EQ(bytes_without_row<HoldRecord>(), gaps(2));
   EXPECT_EQ(bytes_without_row<FaceTag>(), 0U);

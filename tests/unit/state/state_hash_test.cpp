@@ -49,7 +49,6 @@ TEST(StateHash, OfAnElementChangesWithTheLastBitOfAnyField) { expect_hash_of_all
 TEST(StateHash, OfAJointChangesWithTheLastBitOfAnyField) { expect_hash_of_all_fields<JointRecord>(); }
 TEST(StateHash, OfAReleasedJointChangesWithTheLastBitOfAnyField) { expect_hash_of_all_fields<ReleasedRecord>(); }
 TEST(StateHash, OfACoupleChangesWithTheLastBitOfAnyField) { expect_hash_of_all_fields<CoupleRecord>(); }
-TEST(StateHash, OfARampChangesWithTheLastBitOfAnyField) { expect_hash_of_all_fields<RampRecord>(); }
 TEST(StateHash, OfAnOffsetChangesWithTheLastBitOfAnyField) { expect_hash_of_all_fields<OffsetRecord>(); }
 TEST(StateHash, OfAHoldChangesWithTheLastBitOfAnyField) { expect_hash_of_all_fields<HoldRecord>(); }
 
