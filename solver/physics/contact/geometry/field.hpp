@@ -76,20 +76,26 @@ inline constexpr CornerSets kSmallSets = kAllSets & ~kFaceSets;
 /// least_row(), without the others' coefficients. @param height  heights() of the element
 [[nodiscard]] inline OverlapFunction least_function(const std::array<double, 4>& height, const FieldValues& values,
                                                     const std::array<double, 4>& lambda) {
-  const bool only_freed_faces = (values.sides & ~kFaceSets) == 0 && values.sides != 0;
-  if (!only_freed_faces) return least_of_all_functions(height, values, lambda);
-  // An element that meets the surface with freed faces alone, as all of what has come apart.
-  double least = std::numeric_limits<double>::infinity();
+  const bool only_faces = (values.sides & ~(kFaceSets | kOwnFaces)) == 0 && values.sides != 0;
+  if (!only_faces) return least_of_all_functions(height, values, lambda);
+  // An element that meets the surface with faces alone, as all of what has come apart: each function has one term.
+  double least = std::numeric_limits<double>::infinity(), slope = 0;
   std::size_t opposite = 0;
-  for (const std::size_t a : {3, 2, 1, 0}) {
-    if ((values.sides >> face_set(a) & 1) == 0) continue;
-    const double g = lambda[a] * std::min(values.depth[a], height[a]);
-    if (!(g < least)) continue;
+  const auto consider = [&](std::size_t a, double depth) {
+    const double g = lambda[a] * depth;
+    if (!(g < least)) return;
     least = g;
+    slope = depth;
     opposite = a;
+  };
+  for (const std::size_t a : {3, 2, 1, 0}) {
+    if (has_face(values.sides, a)) consider(a, height[a]);
+  }
+  for (const std::size_t a : {3, 2, 1, 0}) {
+    if ((values.sides >> face_set(a) & 1) != 0) consider(a, std::min(values.depth[a], height[a]));
   }
   OverlapFunction function{least, {}};
-  function.row[opposite] = std::min(values.depth[opposite], height[opposite]);
+  function.row[opposite] = slope;
   return function;
 }
 

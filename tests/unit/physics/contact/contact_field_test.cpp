@@ -34,8 +34,9 @@ TEST(OverlapField, HasTheSameLeastFunctionHoweverItIsFound) {
     }
     // Nothing in some: the depths alone; in others fracture alone, or faces and further sides at rest as well.
     if (set % 16 != 0) values.sides = largest_sets(static_cast<CornerSets>(random()) & kAllSets);
+    if (set % 5 == 0) values.sides &= kFaceSets;
+    if (set % 2 != 0) values.sides |= static_cast<SurfaceSides>(random()) & kOwnFaces;
     if (set % 3 != 0) {
-      values.sides |= static_cast<SurfaceSides>(random()) & kOwnFaces;
       values.sides |= with_planes(random() % (kMostSides + 1));
       for (std::size_t k = 0; k < num_planes(values.sides); ++k) {
         for (std::size_t a = 0; a < 4; ++a) values.planes[k][a] = a == k % 4 ? 0.0 : length(random);
