@@ -78,6 +78,17 @@ std::string in_quotes(std::string_view text) {
   return "\"" + printable(text.substr(0, kShown)) + (text.size() > kShown ? "..." : "") + "\"";
 }
 
+/// The names near one that there is not, those with its last part first: of "bar.force_x" it is "force_x".
+std::string names_near(const std::string& name, const std::vector<std::string>& known) {
+  constexpr std::size_t kNamed = 12;
+  std::vector<std::string> near = nearest_first(name, known);
+  const std::string last = name.substr(name.rfind('.') + 1);
+  std::stable_partition(near.begin(), near.end(),
+                        [&](const std::string& word) { return word.find(last) != std::string::npos; });
+  if (near.size() <= kNamed) return joined(near);
+  return joined(std::span(near).first(kNamed)) + " and " + std::to_string(near.size() - kNamed) + " more";
+}
+
 std::string name_of_measure(const Measure& unit) { return unit ? name_of(*unit) : "plain number"; }
 
 }  // namespace
@@ -314,7 +325,7 @@ class ExpressionParser {
     if (found == columns_.end()) {
       std::vector<std::string> known;
       for (const HistoryColumn& c : columns_) known.push_back(shown(c));
-      throw ExpressionError("the history of this case has no column " + in_quotes(name), nearest_words(name, known));
+      throw ExpressionError("the history of this case has no column " + in_quotes(name), names_near(name, known));
     }
     if (const auto other = std::find_if(found + 1, columns_.end(), matches); other != columns_.end())
       throw ExpressionError("two columns are meant by " + in_quotes(name),

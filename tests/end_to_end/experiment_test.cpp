@@ -118,6 +118,8 @@ TEST_F(Experiment, GivesTheSameBitsOnAnyNumberOfRanks) {
     (void)run(text, "on" + std::to_string(ranks), ranks);
     expect_same("one", "on" + std::to_string(ranks));
   }
+  const Outcome diff = call("diff " + quoted("one") + " " + quoted("on2"));
+  EXPECT_THAT(diff.out, HasSubstr("results\n  ranks: 1 | 2\nhistory: the same"));
   (void)run(text, "divided", 3, "--set domains.margin=0.1");
   expect_same("one", "divided");
 }
@@ -125,6 +127,9 @@ TEST_F(Experiment, GivesTheSameBitsOnAnyNumberOfRanks) {
 TEST_F(Experiment, AConditionEndsTheRunWithEverythingWritten) {
   const json stopped = run(with("[time]\nstop_when = \"broken_joints > 10\"\n"), "stopped");
   const json whole = run(with(""), "whole");
+  const std::string parted = call("diff " + quoted("stopped") + " " + quoted("whole")).out;
+  EXPECT_THAT(parted, HasSubstr("conditions[0].times: 1 | (none)"));
+  EXPECT_EQ(parted.find("gauges"), std::string::npos) << "the history compares their columns";
   EXPECT_LT(stopped.at("steps"), whole.at("steps"));
   EXPECT_THAT(stopped.at("status").get<std::string>(),
               HasSubstr("stopped: time.stop_when = \"broken_joints > 10\" is true at "));

@@ -95,6 +95,7 @@ TEST(Expression, NamesColumnsByWordOrInQuotes) {
 
 TEST(Expression, NamesTheNearestColumns) {
   EXPECT_THAT(message("broken_jonts > 5"), HasSubstr("no column \"broken_jonts\"; allowed: broken_joints, "));
+  EXPECT_THAT(message("bar.ement_x > 5"), HasSubstr("allowed: bar.x1.displacement_x, ")) << "the last part is its own";
   EXPECT_THAT(message("'broken jonts' > 5"), HasSubstr("'broken joints'"));
 }
 
