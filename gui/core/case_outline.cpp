@@ -66,8 +66,8 @@ const std::vector<WorkStage>& work_stages() {
       {stage_text("Domains"), Kind::sections, {"domains"}},
       {stage_text("Output and in situ"),
        Kind::sections,
-       {"output", "checkpoint", "insitu", "insitu.live", "insitu.live.region", "insitu.pipeline[]",
-        "insitu.pipeline[].region", "insitu.pipeline[].probe[]"}},
+       {"output", "gauge[]", "trigger[]", "checkpoint", "insitu", "insitu.live", "insitu.live.region",
+        "insitu.pipeline[]", "insitu.pipeline[].region", "insitu.pipeline[].probe[]"}},
       {stage_text("Run"), Kind::run, {}},
       {stage_text("Results"), Kind::results, {}}};
   return stages;

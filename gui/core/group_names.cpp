@@ -36,7 +36,7 @@ QStringList strings(const std::vector<std::string>& names) {
 GroupKind group_kind(const Key& key) {
   if (key.path == "mesh.raster.group") return GroupKind::none;  // it gives the group its name
   const std::string_view name = key.name();
-  for (const char* any : {"stage[].constraint[].group", "stage[].force[].group", "output.gauges"})
+  for (const char* any : {"stage[].constraint[].group", "stage[].force[].group", "output.gauges", "gauge[].group"})
     if (key.path == any) return GroupKind::any;
   if (key.type == ValueType::text_or_list && name == "group") return GroupKind::volume;
   if (key.type == ValueType::text_or_list && name == "surface") return GroupKind::surface;

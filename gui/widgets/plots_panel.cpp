@@ -34,7 +34,8 @@ bool is_first_choice(const QString& column) {
                                 "contact friction [J]", "damping [J]",    "plastic [J]",      "external work [J]",
                                 "residual [J]",         "damaged joints", "broken joints",    "broken in mode I",
                                 "broken in mode II",    "fragments"};
-  static const QRegularExpression gauge(R"(^.+(?<! max) displacement [xyz] \[m\]$|^.+ reaction [xyz] \[N\]$)");
+  static const QRegularExpression gauge(
+      R"(^.+(?<! max) displacement [xyz] \[m\]$|^.+ reaction [xyz] \[N\]$|^.+ elongation \[m\]$)");
   return list.contains(column) || gauge.match(column).hasMatch();
 }
 

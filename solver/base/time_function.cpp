@@ -26,6 +26,14 @@ double TimeFunction::operator()(double time) const {
   return value;
 }
 
+TimeFunction TimeFunction::earlier(double by) const {
+  TimeFunction moved = *this;
+  moved.constant += linear * by;
+  for (Sine& s : moved.sines) s.phase += 2.0 * std::numbers::pi * s.frequency * by;
+  for (Point& p : moved.table) p.time -= by;
+  return moved;
+}
+
 bool TimeFunction::is_zero() const {
   return constant == 0.0 && linear == 0.0 &&
          std::all_of(sines.begin(), sines.end(), [](const Sine& s) { return s.amplitude == 0.0; }) &&

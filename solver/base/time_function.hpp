@@ -26,6 +26,8 @@ struct TimeFunction {
 
   /// O(sines + log table), throws nothing.
   [[nodiscard]] double operator()(double time) const;
+  /// The function that has at t the value of this one at t + by.
+  [[nodiscard]] TimeFunction earlier(double by) const;
   /// True for the function that is zero at all times.
   [[nodiscard]] bool is_zero() const;
   friend bool operator==(const TimeFunction&, const TimeFunction&) = default;

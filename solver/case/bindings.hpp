@@ -7,7 +7,8 @@
 /// Which key of the schema stands for which member of a case: written once, walked by the reader and by the writer.
 /// An archive A offers: A::reads; value(key, member); choice(key, enumeration); axis_functions(key, axes, values);
 /// section(key, visitor), optional_section(key, member), list(key, members); origin(member) and, to read only:
-/// has(key), exactly_one(keys), at_most_one(keys), only(keys, condition), smallest_young(groups), resolve_script(name).
+/// has(key), exactly_one(keys), at_most_one(keys), needed(keys),
+/// only(keys, condition), smallest_young(groups), resolve_script(name).
 namespace breccia::case_ {
 
 template <class A>
@@ -249,6 +250,7 @@ void bind(A& a, Stage& stage) {
   a.origin(stage.origin);
   a.value("name", stage.name);
   a.value("end", stage.end);
+  a.value("stop_when", stage.stop_when);
   a.value("gravity", stage.gravity);
   a.value("mass_damping", stage.mass_damping);
   a.value("local_damping", stage.local_damping);
@@ -262,11 +264,13 @@ void bind(A& a, Stage& stage) {
 
 template <class A>
 void bind(A& a, TimeControl& time) {
+  a.origin(time.origin);
   a.value("step", time.step);
   a.value("safety", time.safety);
   a.value("max_steps", time.max_steps);
   a.value("residual_limit", time.residual_limit);
   a.value("energy_gain_limit", time.energy_gain_limit);
+  a.value("stop_when", time.stop_when);
 }
 
 template <class A>
@@ -407,6 +411,8 @@ void bind(A& a, Case& c) {
   a.section("domains", [&](auto& s) { bind(s, c.domains); });
   a.section("checkpoint", [&](auto& s) { bind(s, c.checkpoint); });
   a.section("output", [&](auto& s) { bind(s, c.output); });
+  a.list("gauge", c.gauges);
+  a.list("trigger", c.triggers);
   a.section("insitu", [&](auto& s) { bind(s, c.insitu); });
 }
 

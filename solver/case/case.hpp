@@ -11,27 +11,14 @@
 #include "base/time_function.hpp"
 #include "base/types.hpp"
 #include "case/bulk_laws.hpp"
+#include "case/experiment.hpp"
+#include "case/origin.hpp"
 
 /// A checked case as plain data: the user's settings in SI units, with all defaults. Keys of the case file stand in
 /// comments; case/schema.hpp is their one table (unit, default, range, help).
 namespace breccia::case_ {
 
 inline constexpr const char* every_group = "*";  ///< in [[material]], [[joint]] and [[contact]]
-
-/// Where a key was written.
-struct KeyPlace {
-  std::string file;  ///< as the user named it, or "--set"
-  int line = 0;
-};
-
-/// Place of an entry and its keys in the file, for messages of later checks (such as a group absent from the mesh).
-struct Origin {
-  int line = 0;
-  std::string key;
-  std::map<std::string, KeyPlace> keys{};  ///< "group", "displacement.x"
-  /// Cases are equal if their settings are, regardless of their places in the file.
-  friend bool operator==(const Origin&, const Origin&) { return true; }
-};
 
 /// Files beside the case file from which functions of time were read.
 struct DataFiles {
@@ -254,6 +241,7 @@ struct Force {
 struct Stage {
   std::string name;
   double end = 0;                       ///< s, counted from the run's start
+  std::string stop_when;                ///< a condition (case/expression.hpp) that ends it earlier; empty: none
   std::array<TimeFunction, 3> gravity;  ///< m/s2
   std::vector<Constraint> constraints;
   std::vector<Pressure> pressures;
@@ -274,6 +262,8 @@ struct TimeControl {
   std::int64_t max_steps = 0;       ///< 0: no limit
   double residual_limit = 0.05;     ///< energy residual over the largest term that stops the run
   double energy_gain_limit = 0.01;  ///< energy gain over the largest term at which the run ends
+  std::string stop_when;            ///< as of a stage; ends the run
+  Origin origin;
   friend bool operator==(const TimeControl&, const TimeControl&) = default;
 };
 
@@ -427,6 +417,8 @@ struct Case {
   Domains domains;
   Checkpointing checkpoint;
   Output output;
+  std::vector<Gauge> gauges;
+  std::vector<Trigger> triggers;
   InSitu insitu;
   DataFiles data;
   std::string resolved;  ///< the case as TOML, SI, every default written out; copied to the run folder

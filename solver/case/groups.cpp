@@ -44,6 +44,12 @@ class GroupChecker {
                      "this name is ambiguous: a volume group and a surface group of the mesh have it",
                      "groups with different names", group));
   }
+  /// What consists of corners of elements.
+  void of_corners(const Origin& origin, const char* name, const std::string& group) {
+    std::vector<std::string> known(all_);
+    std::erase_if(known, [&](const std::string& g) { return has(volumes_, g); });
+    check(origin, name, group, known, "surface, curve or point group, or element set");
+  }
   void gauge(const Origin& origin, const std::string& name, std::int64_t num_bodies) {
     const std::int64_t body = numbered_body(name);
     const bool is_group = has(all_, name);
@@ -219,6 +225,8 @@ std::vector<Problem> check_groups(const Case& c, const GroupNames& groups, std::
   for (const std::string& group : c.broken_surfaces) checker.surface(c.broken_origin, "broken", group);
   for (const Stage& stage : c.stages) check_stage(stage, checker);
   for (const std::string& group : c.output.gauges) checker.gauge(c.output.origin, group, num_bodies);
+  for (const Gauge& gauge : c.gauges)
+    if (gauge.kind == GaugeKind::cracks) checker.of_corners(gauge.origin, "group", gauge.group);
   return checker.take();
 }
 

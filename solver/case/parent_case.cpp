@@ -19,7 +19,8 @@ namespace {
 /// Lists whose entries stand for a group or a pair of groups, in any order.
 constexpr std::array<std::string_view, 3> kByGroups{"material", "joint", "contact"};
 /// Sections without influence on a state that is there.
-constexpr std::array<std::string_view, 5> kOfTheRun{"start", "output", "insitu", "checkpoint", "domains"};
+constexpr std::array<std::string_view, 7> kOfTheRun{"start",  "output",     "gauge",  "trigger",
+                                                    "insitu", "checkpoint", "domains"};
 
 bool same(const Node& a, const Node& b) {
   const auto is_number = [](const Node& n) { return n.is(Node::Kind::number) || n.is(Node::Kind::integer); };

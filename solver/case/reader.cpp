@@ -115,6 +115,11 @@ class SectionReader {
                       "only one of " + words(names), joined(given, " and "));
   }
 
+  void needed(std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names)
+      if (written_ && !has(name)) values_.missing_key(key_of(pattern(name)), table_, at(name));
+  }
+
   /// Keys of the section that have no effect under a condition.
   void only(std::initializer_list<std::string_view> names, const std::string& condition) {
     for (const auto& [name, node] : table_.entries) {

@@ -339,6 +339,10 @@ constexpr auto model_keys = std::to_array<Key>({
      .example = "\"impact\""},
     {.path = "stage[].end", .level = basic, .type = number, .unit = "s", .required = true, .range = durations,
      .help = "Time at which the stage ends, counted from the start of the run.", .example = "\"100 us\""},
+    {.path = "stage[].stop_when", .type = text, .fallback = "\"\"",
+     .help = "Condition over columns of the history that ends the stage before its end; later stages begin and end "
+             "earlier by the same time, functions of time included. `breccia explain trigger.when` has the notation.",
+     .example = "\"kinetic < 0.01 * peak(kinetic) for 1 ms\""},
     {.path = "stage[].gravity", .level = basic, .type = function_vector, .unit = "m/s2", .fallback = "[0, 0, 0]",
      .help = "Acceleration of gravity along x, y and z, functions of time.", .example = "[0, 0, \"-9.81 m/s2\"]"},
     {.path = "stage[].mass_damping", .type = number, .unit = "1/s", .fallback = "0", .range = not_negative,
@@ -414,6 +418,9 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Largest energy gain, as a share of the largest term of the budget: kinetic and stored energy above the "
              "initial energy plus the external work. The run ends beyond it. Terms of the size of round-off are "
              "exempt.", .example = "\"0.1 %\""},
+    {.path = "time.stop_when", .type = text, .fallback = "\"\"",
+     .help = "Condition over columns of the history that ends the run, as trigger.when.",
+     .example = "\"abs(platen.reaction_z) < 0.5 * peak(abs(platen.reaction_z)) and broken_joints > 100\""},
 });
 // clang-format on
 

@@ -21,6 +21,7 @@ inline constexpr Range positive_share{.lower = 0, .upper = 1, .lower_open = true
 inline constexpr Range angle{.lower = 0, .upper = std::numbers::pi / 2, .upper_open = true};
 inline constexpr Range count{.lower = 1, .upper = 100000};
 inline constexpr Range at_most_10000_points{.lower = 1, .upper = 10000};
+inline constexpr Range points_of_line{.lower = 2, .upper = 1000};
 inline constexpr Range at_most_100000{.lower = 0, .upper = 100000};
 inline constexpr Range seed{.lower = 0, .upper = 9.2e18};
 inline constexpr Range steps{.lower = 0, .upper = 9.2e18};

@@ -87,6 +87,46 @@ inline constexpr auto run_keys = std::to_array<Key>({
              "constrained nodes included: under a press that moves down it points down. Velocity, momentum and spin "
              "are half a step later than the other columns.", .example = "[\"support\", \"body 0\"]"},
 
+    {.path = "gauge[]", .type = section_list,
+     .help = "Columns of the history: values at points of the material, along a line, between two points, or of cracks "
+             "that reach a group. Positions are those at rest; the element there is followed. In conditions a column "
+             "is named as NAME.elongation."},
+    {.path = "gauge[].name", .level = basic, .type = text, .required = true,
+     .help = "Begins the names of the columns. Letters, digits, spaces and the signs . _ - are allowed.",
+     .example = "\"cmod\""},
+    {.path = "gauge[].kind", .level = basic, .type = choice, .required = true,
+     .choices = "point|line|extensometer|cracks",
+     .help = "point: displacement, velocity (half a step later) and Cauchy stress of the element at a point. line: the "
+             "same at points from one end to the other. extensometer: change of the distance of two points, as a "
+             "length and a strain; across a notch it is the crack mouth opening. cracks: number of broken joints that "
+             "touch a group.", .example = "\"extensometer\""},
+    {.path = "gauge[].at", .level = basic, .type = vector, .unit = "m", .help = "Position of a point.",
+     .example = "[0, \"10 mm\", 0]"},
+    {.path = "gauge[].from", .level = basic, .type = vector, .unit = "m",
+     .help = "First point of a line or extensometer. Where several elements meet, the one with the lowest number holds "
+             "it.", .example = "[\"-5 mm\", 0, 0]"},
+    {.path = "gauge[].to", .level = basic, .type = vector, .unit = "m",
+     .help = "Last point of a line or extensometer.", .example = "[\"5 mm\", 0, 0]"},
+    {.path = "gauge[].points", .type = integer, .fallback = "2", .range = points_of_line,
+     .help = "Number of points of a line, both ends included.", .example = "11"},
+    {.path = "gauge[].group", .type = text, .help = "Surface, curve, point or element set that cracks reach.",
+     .example = "\"support\""},
+
+    {.path = "trigger[]", .type = section_list,
+     .help = "An action that is carried out when a condition over columns of the history becomes true. The condition "
+             "is evaluated at every line of the history."},
+    {.path = "trigger[].when", .type = text, .required = true,
+     .help = "Comparisons (< <= > >=) of columns, numbers with or without a unit, + - * /, abs(), peak() and lowest() "
+             "(largest and smallest value so far), joined by and, or; `CONDITION for 2 ms` holds after that time. "
+             "Columns are named as in history.csv without the unit: broken_joints, plate.reaction_z; other names in "
+             "single quotes: 'plate reaction z'.", .example = "\"broken_joints > 100\""},
+    {.path = "trigger[].action", .type = choice, .required = true,
+     .choices = "frame|checkpoint|extract|stop",
+     .help = "frame, checkpoint: write one; extract: execute the pipelines of [insitu]; stop: end the run.",
+     .example = "\"frame\""},
+    {.path = "trigger[].once", .type = boolean, .fallback = "true",
+     .help = "false: each time that the condition becomes true.", .example = "false"},
+
     {.path = "insitu", .type = section,
      .help = "Pictures, extracts and live views that ParaView Catalyst makes during the run (catalyst/README.md)."},
     {.path = "insitu.run", .level = basic, .type = text_list, .fallback = "[]",

@@ -60,6 +60,17 @@ constexpr auto kProgramTopics = std::to_array<Topic>({
      "`breccia --version`. Breccia is under the BSD 3-Clause license, binaries that link gmsh under the GPL. "
      "CITATION.cff has the citation; sources of the methods are in solver/manual/theory/references.md.",
      "title"},
+    {"stop when|stop criterion|stopping criterion|termination|end condition|until|"
+     "equilibrium reached|at rest",
+     "time.stop_when and stage.stop_when end a run or a stage, and a [[trigger]] writes a frame, a checkpoint or an "
+     "extract, when a condition over columns of the history becomes true, such as \"broken_joints > 100\" or "
+     "\"kinetic < 0.001 * peak(kinetic) for 1 ms\".",
+     "time.stop_when|stage.stop_when|trigger.when"},
+    {"extensometer|strain gauge|strain gage|crack mouth opening|cmod|cod|clip gauge|lvdt|virtual gauge|point history|"
+     "probe point|monitor point|displacement of a point|line of points",
+     "A [[gauge]] records displacement, velocity and stress at points and lines of the material, the change of the "
+     "distance of two points, and the broken joints at a group; conditions can read it.",
+     "gauge.kind|gauge.from|output.gauges"},
     {"stop|pause|abort|cancel|kill|interrupt|ctrl c|signal|steering|steer|restart file|hang",
      "`breccia control RUN stop` (pause, resume, frame, checkpoint, extract) controls a run; Ctrl-C or SIGTERM ends it "
      "after the step with a checkpoint; `breccia resume RUN` continues it, also after a crash.",

@@ -17,6 +17,7 @@
 #include "case/nearest.hpp"
 #include "case/problem_at.hpp"
 #include "case/schema.hpp"
+#include "case/validate_experiment.hpp"
 #include "case/validate_insitu.hpp"
 #include "case/validate_motion.hpp"
 
@@ -343,7 +344,7 @@ class Validator {
 
 std::vector<Problem> validate(const Case& c, bool needs_mesh_file) {
   std::vector<Problem> problems = Validator(c, needs_mesh_file).run();
-  for (const std::vector<Problem>& more : {validate_insitu(c), validate_motion(c)})
+  for (const std::vector<Problem>& more : {validate_insitu(c), validate_motion(c), validate_experiment(c)})
     problems.insert(problems.end(), more.begin(), more.end());
   return problems;
 }

@@ -107,9 +107,10 @@ case_::Case case_of(const Checkpoint& from, const fs::path& file, std::vector<st
                     ResumeOptions& options) {
   case_::Case input = case_::read_case_text(from.case_text, file, overrides, case_::MeshFile::may_be_gone);
   options.until = until;
-  if (until <= input.stages.back().end || !std::isfinite(until)) return input;
-  check_later_end(until);
-  overrides.push_back(fmt::format("stage[{}].end={:.17g}", input.stages.size() - 1, until));
+  const double saved = from.position.saved;  // the last stage ends earlier by this (RunStages)
+  if (until + saved <= input.stages.back().end || !std::isfinite(until)) return input;
+  check_later_end(until + saved);
+  overrides.push_back(fmt::format("stage[{}].end={:.17g}", input.stages.size() - 1, until + saved));
   options.extended = true;
   return case_::read_case_text(from.case_text, file, overrides, case_::MeshFile::may_be_gone);
 }

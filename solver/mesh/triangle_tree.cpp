@@ -50,6 +50,23 @@ double point_triangle_distance(const Vec3& point, const Triangle& triangle) {
   return std::sqrt(squared_distance(point, triangle));
 }
 
+Vec3 nearest_on_triangle(const Vec3& point, const Triangle& t) {
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double normal2 = normal.squaredNorm();
+  const Vec3 foot = normal2 > 0 ? Vec3(point - normal.dot(point - t[0]) / normal2 * normal) : point;
+  bool inside = normal2 > 0;
+  Vec3 nearest = t[0];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = t[i], edge = t[(i + 1) % 3] - a;
+    inside = inside && normal.cross(edge).dot(foot - a) >= 0;
+    const double length2 = edge.squaredNorm();
+    const double share = length2 > 0 ? (point - a).dot(edge) / length2 : 0.0;
+    const Vec3 on_edge = a + std::clamp(share, 0.0, 1.0) * edge;
+    if ((on_edge - point).squaredNorm() < (nearest - point).squaredNorm()) nearest = on_edge;
+  }
+  return inside ? foot : nearest;
+}
+
 TriangleTree::TriangleTree(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
   if (triangles_.empty()) return;
   nodes_.reserve(triangles_.size());

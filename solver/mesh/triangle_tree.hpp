@@ -16,6 +16,9 @@ using Triangle = std::array<Vec3, 3>;
 /// area counts as its longest edge. O(1), throws nothing.
 [[nodiscard]] double point_triangle_distance(const Vec3& point, const Triangle& triangle);
 
+/// The place on a triangle, its inside and border included, that is nearest to a point, m. As above.
+[[nodiscard]] Vec3 nearest_on_triangle(const Vec3& point, const Triangle& triangle);
+
 /// Nearest triangle to a point: a binary tree of boxes over the triangles, split at the median of their centres along
 /// the longest axis. Memory about 150 B a triangle.
 class TriangleTree {

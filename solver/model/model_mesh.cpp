@@ -6,6 +6,7 @@
 #include "mesh/bodies.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/raster.hpp"
+#include "model/gauge_points.hpp"
 #include "model/memory_demand.hpp"
 #include "model/model.hpp"
 #include "system/interruption.hpp"
@@ -108,6 +109,7 @@ FinishedMesh build_mesh(const case_::Case& input) {
       input, {made.mesh.volume_groups, made.mesh.surface_groups, made.mesh.node_groups, made.mesh.element_sets},
       made.mesh.num_bodies);
   name_empty_groups(made.report, problems);
+  for (Problem& problem : points_outside(input, made.mesh)) problems.push_back(std::move(problem));
   if (!problems.empty()) throw InputError(std::move(problems));
   return made;
 }

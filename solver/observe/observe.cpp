@@ -91,6 +91,7 @@ void Observer::begin_stage(const case_::Stage& stage) {
 void Observer::make_gauges() {
   gauged_ = partition_.decompositions();
   gauges_ = breccia::make_gauges(partition_.model(), input_.output.gauges, *stage_);
+  point_gauges_.find(partition_.domain());
 }
 
 HistoryRow Observer::row(double time) {
@@ -113,6 +114,7 @@ HistoryRow Observer::row(double time) {
   row.stress_yy_sum = sums[6];
   row.max_speed = domain.exchange.communicator().max(fastest_node(domain).speed);
   row.gauges = read_gauges(domain, gauges_);
+  row.at_points = point_gauges_.read(domain);
   return row;
 }
 

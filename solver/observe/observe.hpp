@@ -8,6 +8,7 @@
 #include "domains/partition.hpp"
 #include "observe/fragment_labels.hpp"
 #include "observe/gauges.hpp"
+#include "observe/point_gauges.hpp"
 #include "output/frames/frame.hpp"
 
 namespace breccia {
@@ -16,7 +17,11 @@ namespace breccia {
 class Observer {
  public:
   /// @pre input and partition outlive this object
-  Observer(const case_::Case& input, const Partition& partition) : input_(input), partition_(partition) {}
+  Observer(const case_::Case& input, const Partition& partition)
+      : input_(input), partition_(partition), point_gauges_(input) {}
+
+  /// Throws InputError where a point of a gauge is outside of the model.
+  void check_points() { point_gauges_.find(partition_.domain()); }
 
   /// From now on gauges read the constraints of this stage. @pre stage outlives its use
   void begin_stage(const case_::Stage& stage);
@@ -38,6 +43,7 @@ class Observer {
   const Partition& partition_;
   const case_::Stage* stage_ = nullptr;
   std::vector<Gauge> gauges_;
+  PointGauges point_gauges_;
   std::int64_t gauged_ = 0;  ///< decomposition for which the gauges were made
   FragmentWatch fragments_;
 };

@@ -39,6 +39,9 @@ struct RunPosition {
   double start_time = 0;                                       ///< s, of the state that the run started from
   std::int64_t start_step = 0;                                 ///< likewise
   BrokenCount broken_count;
+  double saved = 0, saved_before = 0;     ///< s, by which stages have ended early: all so far, those before the present
+  bool extract_due = false;               ///< a trigger has fired
+  std::vector<double> conditions, peaks;  ///< RunConditions::memory, Peaks::memory
   OutputMarks marks;
 };
 template <>
@@ -66,6 +69,11 @@ struct FieldTable<RunPosition> {
       FieldRow{"joints_known_to_be_broken", "1", kNotHashed, [](auto& r) -> auto& { return r.broken_count.known; }},
       FieldRow{"broken_count_due", "1", kNotHashed, [](auto& r) -> auto& { return r.broken_count.due; }},
       FieldRow{"broken_count_due_next", "1", kNotHashed, [](auto& r) -> auto& { return r.broken_count.due_next; }},
+      FieldRow{"time_saved_by_stages", "s", kNotHashed, [](auto& r) -> auto& { return r.saved; }},
+      FieldRow{"time_saved_before_stage", "s", kNotHashed, [](auto& r) -> auto& { return r.saved_before; }},
+      FieldRow{"extract_due", "1", kNotHashed, [](auto& r) -> auto& { return r.extract_due; }},
+      FieldRow{"memory_of_conditions", "1", kNotHashed, [](auto& r) -> auto& { return r.conditions; }},
+      FieldRow{"peaks_of_gauges", "1", kNotHashed, [](auto& r) -> auto& { return r.peaks; }},
       FieldRow{"history_bytes", "1", kNotHashed, [](auto& r) -> auto& { return r.marks.history_bytes; }},
       FieldRow{"status_bytes", "1", kNotHashed, [](auto& r) -> auto& { return r.marks.status_bytes; }},
       FieldRow{"frames", "1", kNotHashed, [](auto& r) -> auto& { return r.marks.frames; }},

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "case/experiment.hpp"
 #include "output/frames/frame.hpp"
 #include "output/run_position.hpp"
 
@@ -14,8 +15,9 @@ namespace breccia {
 struct RunStart {
   std::string title;
   std::int64_t elements = 0, joints = 0;
-  std::vector<std::string> gauges;  ///< groups, in the order of HistoryRow::gauges
-  bool insitu = false;              ///< pipelines are executed during the run: HistoryRow::insitu_share
+  std::vector<std::string> gauges;           ///< groups, in the order of HistoryRow::gauges
+  std::vector<case_::Gauge> point_gauges{};  ///< in the order of HistoryRow::at_points
+  bool insitu = false;                       ///< pipelines are executed during the run: HistoryRow::insitu_share
   std::optional<OutputMarks>
       marks{};  ///< the run continues from a checkpoint: entries of its files beyond these are removed
   std::vector<std::string> bodies{};  ///< (bodies) what users call them; on the first rank

@@ -13,7 +13,7 @@ InSituWatch::InSituWatch(const case_::Case& input, const std::filesystem::path& 
                          InSitu::Tell tell)
     : partition_(partition),
       insitu_(input, extracts, partition.communicator(), std::move(tell)),
-      columns_(history_columns(input.output.gauges, true)) {}
+      columns_(history_columns(input.output.gauges, input.gauges, true)) {}
 
 void InSituWatch::start_from(Moment first, const RunPosition* from) {
   count_broken();

@@ -3,21 +3,20 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <thread>
 #include <utility>
 
 #include "base/error.hpp"
-#include "domains/corner_tags.hpp"
-#include "domains/model_fields.hpp"
 #include "domains/motion_limit.hpp"
 #include "domains/partition.hpp"
-#include "domains/piece_mesh.hpp"
+#include "simulation/checkpoint_snapshot.hpp"
 #include "simulation/insitu_watch.hpp"
 #include "simulation/run_checkpoints.hpp"
+#include "simulation/run_conditions.hpp"
 #include "simulation/run_control.hpp"
 #include "simulation/run_output.hpp"
+#include "simulation/run_stages.hpp"
 #include "simulation/sound_state.hpp"
 #include "simulation/stage_steps.hpp"
 #include "simulation/step.hpp"
@@ -36,24 +35,32 @@ class Runner {
  public:
   Runner(const case_::Case& input, std::unique_ptr<Model> whole, const std::vector<std::unique_ptr<Sink>>& sinks,
          const Communicator& communicator, const RunFolder* folder)
-      : Runner(input, sinks, communicator, folder,
-               [&] { return Partition(input, communicator, std::move(whole), [&] { give_up_start(communicator); }); }) {
-  }
+      : Runner(input, nullptr, sinks, communicator, folder, [&](const case_::Case& now) {
+          return Partition(now, communicator, std::move(whole), [&] { give_up_start(communicator); });
+        }) {}
 
   Runner(const case_::Case& input, Checkpoint from, const ResumeOptions& options,
          const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator, const RunFolder& folder)
-      : Runner(input, sinks, communicator, &folder,
-               [&] { return Partition(input, communicator, snapshot_of(input, communicator, from)); }) {
+      : Runner(input, &from.position, sinks, communicator, &folder, [&](const case_::Case& now) {
+          return Partition(now, communicator, checkpoint_snapshot(now, communicator, from));
+        }) {
     from_ = from.position;
     options_ = options;
+    extract_commanded_ = from_->extract_due;
+    if (!conditions_.restore(from_->conditions))
+      throw InputError(Problem{folder.root.string(), 0, "resume",
+                               "this checkpoint is damaged: the memory of the conditions is not that of its case", "",
+                               ""});
     if (checkpoints_) checkpoints_->restore(*from_);
   }
 
   Runner(const case_::Case& input, Checkpoint from, const StartOptions& options,
          const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator, const RunFolder& folder)
-      : Runner(input, sinks, communicator, &folder,
-               [&] { return Partition(input, communicator, start_of(input, communicator, options, from)); }) {
+      : Runner(input, nullptr, sinks, communicator, &folder, [&](const case_::Case& now) {
+          return Partition(now, communicator, start_snapshot(now, communicator, options, from));
+        }) {
     partition_.refuse_what_cannot_break();
+    output_.observer().check_points();
     output_.start_from(from.position);
     start_words_ = options.words;
   }
@@ -90,49 +97,21 @@ class Runner {
 
  private:
   template <class MakePartition>
-  Runner(const case_::Case& input, const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator,
-         const RunFolder* folder, MakePartition&& make_partition)
-      : input_(input),
+  Runner(const case_::Case& input, const RunPosition* from, const std::vector<std::unique_ptr<Sink>>& sinks,
+         const Communicator& communicator, const RunFolder* folder, MakePartition&& make_partition)
+      : stages_(input, from),
         communicator_(communicator),
-        partition_(make_partition()),
-        output_(input, sinks, partition_),
+        partition_(make_partition(input_)),
+        output_(input_, sinks, partition_),
+        conditions_(input),
         control_(folder != nullptr ? std::optional(folder->control()) : std::nullopt, communicator) {
     if (folder == nullptr) return;
-    checkpoints_.emplace(input, partition_, *folder,
+    checkpoints_.emplace(input_, partition_, *folder,
                          [this](const std::string& text, bool good) { tell_of_checkpoint(text, good); });
     if (!input.insitu.asked_for()) return;
     communicator_.set_phase("start of the in-situ adaptor");
     insitu_.emplace(input, folder->extracts(), partition_,
                     [this](const std::string& text, bool good) { output_.tell_event("insitu", text, good); });
-  }
-
-  static Snapshot snapshot_of(const case_::Case& input, const Communicator& communicator, Checkpoint& from) {
-    Snapshot snapshot;
-    snapshot.whole = unpack_whole(from.whole_model);
-    snapshot.weight.assign(from.mine.elements.size(), 1.0);
-    snapshot.mine = std::move(from.mine);
-    snapshot.state.state = part_of_whole(from.model, communicator.is_root());
-    snapshot.state.sample = {energy_of(from.position), from.position.worst_element};
-    snapshot.domains = domain_spec(input);
-    snapshot.motion = from.position.motion;
-    snapshot.stage = static_cast<std::size_t>(from.position.stage);
-    return snapshot;
-  }
-
-  /// What new laws change: the stable step, and the energy that the state holds.
-  static Snapshot start_of(const case_::Case& input, const Communicator& communicator, const StartOptions& options,
-                           Checkpoint& from) {
-    Snapshot snapshot = snapshot_of(input, communicator, from);
-    snapshot.stage = 0;
-    snapshot.in_stage = false;
-    if (!options.cut.empty()) {
-      tag_corners_anew(communicator, snapshot.whole, options.cut, snapshot.mine);
-      snapshot.whole.cut = options.cut;
-    }
-    if (!options.new_laws) return snapshot;
-    snapshot.whole.step_ratio = 0;
-    snapshot.state.state.work.first_excess = std::numeric_limits<double>::quiet_NaN();
-    return snapshot;
   }
 
   /// A run that has done nothing has nothing to lose.
@@ -152,6 +131,8 @@ class Runner {
   }
 
   void run_stage(std::size_t s) {
+    if (!from_ || s != first_stage()) stages_.begin(s);
+    stage_ = s;
     StageSteps steps = begin_stage(s);
     output_.begin_stage(input_.stages[s]);
     tell_of_step(steps);
@@ -187,6 +168,7 @@ class Runner {
   }
 
   [[nodiscard]] std::string status_now() const {
+    if (!stop_reason_.empty()) return "stopped: " + stop_reason_;
     if (partition_.state().signals.received.stop || stop_commanded_) return "stopped: by request";
     if (input_.time.max_steps > 0 && output_.steps_done() >= input_.time.max_steps)
       return "stopped: time.max_steps reached";
@@ -212,15 +194,33 @@ class Runner {
     step(partition_.domain(), {line || last, signals()});
     const bool sampled = line || last || partition_.state().signals.received.stop;
     sampled_without_line_ = sampled ? std::optional(time) : std::nullopt;
-    if (line) take_line(time);
+    const std::vector<double> numbers = line ? take_line(time) : std::vector<double>{};
     if (line || last) check_energies(time);
+    if (line) act_on(conditions_.take(numbers, stage_));
     output_.tell_status(paused_);
     if (!sampled_without_line_) partition_.keep_up();  // a line that is to come needs what a division forgets
   }
 
-  void take_line(double time) {
-    output_.take_line(time, insitu_ ? &*insitu_ : nullptr);
+  std::vector<double> take_line(double time) {
     sampled_without_line_.reset();
+    return output_.take_line(time, insitu_ ? &*insitu_ : nullptr);
+  }
+
+  /// What the conditions of the case request. At the end of a run everything is written anyway.
+  void act_on(const std::vector<RunConditions::Fired>& fired) {
+    using Action = RunConditions::Action;
+    for (const RunConditions::Fired& one : fired) {
+      output_.tell_event("condition", one.text, true);
+      if (one.action == Action::stop && stop_reason_.empty()) stop_reason_ = one.text;
+      if (one.action == Action::checkpoint) checkpoint_due_ = true;
+      if (one.action == Action::extract) extract_commanded_ = true;
+      // With one more step, which is divided where the next stage has shorter ones.
+      if (one.action == Action::end_stage) stages_.end_at(clock().time + clock().dt);
+    }
+    const auto is_frame = [](const RunConditions::Fired& one) { return one.action == Action::frame; };
+    if (!stop_reason_.empty() || std::none_of(fired.begin(), fired.end(), is_frame)) return;
+    (void)output_.frame_due();  // if one is, this is it
+    output_.write_frame();
   }
 
   void check_energies(double time) {
@@ -232,7 +232,8 @@ class Runner {
   void look_at_checkpoints() {
     if (!checkpoints_) return;
     checkpoints_->look();
-    const bool due = checkpoints_->due();
+    const bool due = checkpoints_->due() || checkpoint_due_;
+    checkpoint_due_ = false;
     if (due && status_ == "complete") begin_checkpoint();  // else it is the last one
   }
 
@@ -271,6 +272,9 @@ class Runner {
     position.since_look = steps_->schedule().since;
     position.growth = steps_->schedule().growth_steps;
     if (insitu_) position.broken_count = insitu_->broken_count();
+    position.extract_due = extract_commanded_;
+    position.conditions = conditions_.memory();
+    stages_.note(position);
     return position;
   }
 
@@ -372,17 +376,23 @@ class Runner {
     if (status != status_) output_.write_frame();  // after an error: the last picture
     std::vector<PipelineReport> insitu;
     if (insitu_) insitu = insitu_->finish();
-    return output_.finish(status, std::move(insitu), checkpoints_ ? checkpoints_->report() : CheckpointReport{},
-                          paused_);
+    return output_.finish(
+        status, {std::move(insitu), checkpoints_ ? checkpoints_->report() : CheckpointReport{}, conditions_.reports()},
+        paused_);
   }
 
   [[nodiscard]] const Clock& clock() const { return partition_.state().clock; }
 
-  const case_::Case& input_;
+  RunStages stages_;
+  const case_::Case& input_ = stages_.now();
   Communicator communicator_;
   Partition partition_;
   RunOutput output_;
+  RunConditions conditions_;
   std::string status_ = "complete";
+  std::string stop_reason_;      ///< a condition; empty: none has ended the run
+  bool checkpoint_due_ = false;  ///< a trigger has fired
+  std::size_t stage_ = 0;        ///< the present one
   RunControl control_;
   bool paused_ = false, stop_commanded_ = false, extract_commanded_ = false;
   std::optional<InSituWatch> insitu_;

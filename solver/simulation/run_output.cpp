@@ -10,6 +10,7 @@
 #include "domains/state_records.hpp"
 #include "observe/body_names.hpp"
 #include "observe/energy_sample.hpp"
+#include "output/folder/history_sink.hpp"
 #include "output/folder/run_folder.hpp"
 #include "output/folder/summary.hpp"
 
@@ -35,9 +36,9 @@ RunOutput::RunOutput(const case_::Case& input, const std::vector<std::unique_ptr
       sink_group_(sinks, partition.communicator()),
       partition_(partition),
       observer_(input, partition),
-      end_(input.stages.back().end),
-      histories_(history_schedule(input, end_)),
-      frames_(input.output.frame_interval) {}
+      histories_(history_schedule(input, end())),
+      frames_(input.output.frame_interval),
+      peaks_(case_::history_columns(input.output.gauges, input.gauges)) {}
 
 void RunOutput::tell_event(const std::string& kind, const std::string& text, bool accepted, const std::string& id) {
   const RunEvent event{kind, text, id, accepted, clock().steps, clock().time};
@@ -47,7 +48,7 @@ void RunOutput::tell_event(const std::string& kind, const std::string& text, boo
 void RunOutput::start_from(const RunPosition& from) {
   start_time_ = clock().time;
   start_step_ = clock().steps;
-  histories_ = history_schedule(input_, end_ - start_time_);
+  histories_ = history_schedule(input_, end() - start_time_);
   last_fragments_ = from.fragments;
   last_broken_ = from.broken_joints;
 }
@@ -57,6 +58,7 @@ void RunOutput::tell_start(bool insitu, const RunPosition* from) {
                        partition_.whole().num_elements,
                        partition_.whole().num_joints,
                        input_.output.gauges,
+                       input_.gauges,
                        insitu,
                        from != nullptr ? std::optional(from->marks) : std::nullopt,
                        body_names(partition_.domain())};
@@ -66,6 +68,7 @@ void RunOutput::tell_start(bool insitu, const RunPosition* from) {
     frame_number_ = from->frame_number;
     last_fragments_ = from->fragments;
     last_broken_ = from->broken_joints;
+    (void)peaks_.restore(from->peaks);  // the columns are those of the checkpoint's case
     wall_before_ = from->wall;
     start_time_ = from->start_time;
     start_step_ = from->start_step;
@@ -94,7 +97,7 @@ void RunOutput::tell_of_frame_interval(bool told_before) {
              false);
 }
 
-void RunOutput::take_line(double time, InSituWatch* insitu) {
+std::vector<double> RunOutput::take_line(double time, InSituWatch* insitu) {
   const auto lap = partition_.domain().timer.measure(Phase::output);
   HistoryRow row = observer_.row(time);
   if (insitu != nullptr) row.insitu_share = insitu->share_of_time();
@@ -102,6 +105,9 @@ void RunOutput::take_line(double time, InSituWatch* insitu) {
   last_broken_ = row.broken_joints;
   if (insitu != nullptr) insitu->take_row(row);
   sink_group_.tell([&](Sink& sink) { sink.history(row); });
+  std::vector<double> numbers = history_values(row);
+  peaks_.add(numbers);
+  return numbers;
 }
 
 void RunOutput::check_energies(double time) {
@@ -133,20 +139,20 @@ double RunOutput::wall() const {
 }
 
 double RunOutput::share() const {
-  const double share = (clock().time - start_time_) / (end_ - start_time_);
+  const double share = (clock().time - start_time_) / (end() - start_time_);
   const std::int64_t most = input_.time.max_steps;  // which ends the run if it comes first
   return most > 0 ? std::max(share, static_cast<double>(steps_done()) / static_cast<double>(most)) : share;
 }
 
 StatusLine RunOutput::status_line(bool paused) {
   StatusLine line;
-  const double left = end_ - clock().time;
+  const double left = end() - clock().time;
   line.step = clock().steps;
   // Where elements are crushed the step may shrink without end; a count beyond this cannot be distinguished from it.
   constexpr double kMostSteps = 1e18;
   line.steps_total = line.step + static_cast<std::int64_t>(std::llround(std::min(left / clock().dt, kMostSteps)));
   line.time = clock().time;
-  line.end = end_;
+  line.end = end();
   line.share = share();
   if (const std::int64_t most = input_.time.max_steps; most > 0)
     line.steps_total = std::min(line.steps_total, start_step_ + most);
@@ -195,6 +201,7 @@ Summary RunOutput::summary_of(const std::string& status) {
     summary.phases.emplace_back(std::string(name_of(phase)),
                                 partition_.communicator().max(partition_.domain().timer.seconds(phase)));
   }
+  summary.peaks = peaks_.reports();
   summary.energy = partition_.domain().sample.budget;
   summary.max_rss_bytes =
       static_cast<std::uint64_t>(partition_.communicator().sum(static_cast<std::int64_t>(max_resident_bytes())));
@@ -213,15 +220,16 @@ RunPosition RunOutput::position() const {
   position.wall = wall();
   position.start_time = start_time_;
   position.start_step = start_step_;
+  position.peaks = peaks_.memory();
   position.marks = sink_group_.marks();
   return position;
 }
 
-Summary RunOutput::finish(const std::string& status, std::vector<PipelineReport> insitu,
-                          const CheckpointReport& checkpoints, bool paused) {
+Summary RunOutput::finish(const std::string& status, Reports reports, bool paused) {
   Summary summary = summary_of(status);
-  summary.checkpoints = checkpoints;
-  summary.insitu = std::move(insitu);
+  summary.checkpoints = reports.checkpoints;
+  summary.insitu = std::move(reports.insitu);
+  summary.conditions = std::move(reports.conditions);
   sink_group_.tell([&](Sink& sink) {
     sink.status(status_line(paused));
     sink.finish(summary);

@@ -10,6 +10,7 @@
 #include "case/case.hpp"
 #include "domains/partition.hpp"
 #include "observe/observe.hpp"
+#include "output/peaks.hpp"
 #include "output/schedule.hpp"
 #include "output/sink.hpp"
 #include "simulation/insitu_watch.hpp"
@@ -23,7 +24,7 @@ namespace breccia {
 /// the status is collective.
 class RunOutput {
  public:
-  /// @pre all arguments outlive this object
+  /// @pre all arguments outlive this object; the ends of stages may change
   RunOutput(const case_::Case& input, const std::vector<std::unique_ptr<Sink>>& sinks, Partition& partition);
 
   /// The run starts from the state of another one. @param from  where that one was
@@ -41,7 +42,8 @@ class RunOutput {
 
   void write_frame();
   /// A line of the history. @param time  s, of the step that was sampled;  @param insitu  null: none
-  void take_line(double time, InSituWatch* insitu);
+  /// @return  its numbers, in the order of the columns
+  std::vector<double> take_line(double time, InSituWatch* insitu);
   /// Throws SimulationError if the residual of the step that was sampled, or the energy that it holds beyond what was
   /// put in, is above its limit; otherwise all until then is sound. @param time  s, of that step
   void check_energies(double time);
@@ -49,8 +51,13 @@ class RunOutput {
   void tell_status(bool paused) {
     sink_group_.tell_status([this, paused] { return status_line(paused); });
   }
-  Summary finish(const std::string& status, std::vector<PipelineReport> insitu, const CheckpointReport& checkpoints,
-                 bool paused);
+  /// What a run has done beside its steps.
+  struct Reports {
+    std::vector<PipelineReport> insitu;
+    CheckpointReport checkpoints;
+    std::vector<ConditionReport> conditions;
+  };
+  Summary finish(const std::string& status, Reports reports, bool paused);
   /// Where the output is. Collective.
   [[nodiscard]] RunPosition position() const;
 
@@ -67,7 +74,8 @@ class RunOutput {
   void tell_of_frame_interval(bool told_before);
   [[nodiscard]] std::int64_t broken_joints() const;  ///< of the whole model, now; collective
   [[nodiscard]] double wall() const;
-  [[nodiscard]] double share() const;  ///< 0..1 of the run
+  [[nodiscard]] double end() const { return input_.stages.back().end; }  ///< s, of the run, as of now
+  [[nodiscard]] double share() const;                                    ///< 0..1 of the run
   [[nodiscard]] StatusLine status_line(bool paused);
   [[nodiscard]] Summary summary_of(const std::string& status);
   [[nodiscard]] const Clock& clock() const { return partition_.state().clock; }
@@ -76,11 +84,11 @@ class RunOutput {
   SinkGroup sink_group_;
   Partition& partition_;
   Observer observer_;
-  double end_;                   ///< s, of the run
   double start_time_ = 0;        ///< s, of the state that the run started from
   std::int64_t start_step_ = 0;  ///< likewise
   double wall_before_ = 0;       ///< s, that the run took before it was resumed
   Schedule histories_, frames_;
+  Peaks peaks_;
   std::string stage_name_;
   std::int64_t frame_number_ = 0, last_fragments_ = 0, last_broken_ = 0;
   std::int64_t resumed_at_ = -1;  ///< step; -1: begun here

@@ -116,7 +116,8 @@ bool are_possible(const Clock& clock, const RunPosition& position) {
   const auto not_negative = [](double time) { return std::isfinite(time) && time >= 0; };
   return not_negative(clock.time) && not_negative(clock.dt) && clock.dt > 0 && not_negative(clock.dt_before) &&
          not_negative(clock.dt_earlier) && 0 <= clock.steps && clock.steps < kMostSteps &&
-         not_negative(position.start_time) && 0 <= position.start_step && position.start_step <= clock.steps;
+         not_negative(position.start_time) && not_negative(position.saved) && not_negative(position.saved_before) &&
+         0 <= position.start_step && position.start_step <= clock.steps;
 }
 
 /// Whether every list ascends by element and names only elements of the checkpoint.

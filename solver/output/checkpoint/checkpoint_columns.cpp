@@ -263,10 +263,12 @@ CheckpointColumn column_of_field(const char* group, const char* name, const char
       const auto words = numbers_of<std::int64_t>(bytes);
       field = ExactSum::from_words(std::span<const std::int64_t, ExactSum::kWords>(words.data(), ExactSum::kWords));
     };
-  } else if constexpr (std::is_same_v<Field, std::vector<GlobalId>>) {
+  } else if constexpr (std::is_same_v<Field, std::vector<GlobalId>> || std::is_same_v<Field, std::vector<double>>) {
+    using T = typename Field::value_type;
+    column.type = number_type<T>();
     column.rows = field.size();
-    column.pack = [&field](auto& bytes) { bytes = bytes_of<GlobalId>(field); };
-    column.unpack = [&field](auto bytes, std::size_t) { field = numbers_of<GlobalId>(bytes); };
+    column.pack = [&field](auto& bytes) { bytes = bytes_of<T>(field); };
+    column.unpack = [&field](auto bytes, std::size_t) { field = numbers_of<T>(bytes); };
   } else {
     using T = typename NumberOf<Field>::Type;
     column.type = number_type<T>();

@@ -13,61 +13,18 @@
 namespace breccia {
 namespace {
 
-struct Count {
-  const char* name;
-  std::int64_t HistoryRow::*value;
-};
-constexpr std::array<Count, 7> kCounts{{{"damaged joints", &HistoryRow::damaged_joints},
-                                        {"broken joints", &HistoryRow::broken_joints},
-                                        {"broken in mode I", &HistoryRow::broken_mode_1},
-                                        {"broken in mode II", &HistoryRow::broken_mode_2},
-                                        {"fragments", &HistoryRow::fragments},
-                                        {"couples", &HistoryRow::couples},
-                                        {"contacts", &HistoryRow::contacts}}};
-
-struct Area {
-  const char* name;
-  double HistoryRow::*value;
-};
-constexpr std::array<Area, 3> kAreas{{{"broken area", &HistoryRow::broken_area},
-                                      {"broken area in mode I", &HistoryRow::broken_area_mode_1},
-                                      {"broken area in mode II", &HistoryRow::broken_area_mode_2}}};
-
-struct Vector {
-  const char* name;
-  const char* unit;
-  Vec3 HistoryRow::*value;
-};
-constexpr std::array<Vector, 2> kVectors{
-    {{"momentum", "kg m/s", &HistoryRow::momentum}, {"angular momentum", "kg m2/s", &HistoryRow::angular_momentum}}};
-
-struct GaugeVector {
-  const char* name;
-  const char* unit;
-  Vec3 GaugeReading::*value;
-};
-constexpr std::array<GaugeVector, 10> kGaugeVectors{{{"reaction", "N", &GaugeReading::reaction},
-                                                     {"contact force", "N", &GaugeReading::contact_force},
-                                                     {"displacement", "m", &GaugeReading::displacement},
-                                                     {"max displacement", "m", &GaugeReading::max_displacement},
-                                                     {"velocity", "m/s", &GaugeReading::velocity},
-                                                     {"centre", "m", &GaugeReading::centre},
-                                                     {"momentum", "kg m/s", &GaugeReading::momentum},
-                                                     {"spin", "rad/s", &GaugeReading::spin},
-                                                     {"resultant force", "N", &GaugeReading::force},
-                                                     {"resultant torque", "N m", &GaugeReading::torque}}};
-
-constexpr std::array<char, 3> kAxes{'x', 'y', 'z'};
+// Members of a row in the order of case_::history_columns.
+constexpr std::array<std::int64_t HistoryRow::*, 7> kCounts{
+    &HistoryRow::damaged_joints, &HistoryRow::broken_joints, &HistoryRow::broken_mode_1, &HistoryRow::broken_mode_2,
+    &HistoryRow::fragments,      &HistoryRow::couples,       &HistoryRow::contacts};
+constexpr std::array<double HistoryRow::*, 3> kAreas{&HistoryRow::broken_area, &HistoryRow::broken_area_mode_1,
+                                                     &HistoryRow::broken_area_mode_2};
+constexpr std::array<Vec3 GaugeReading::*, 10> kGaugeVectors{
+    &GaugeReading::reaction, &GaugeReading::contact_force, &GaugeReading::displacement, &GaugeReading::max_displacement,
+    &GaugeReading::velocity, &GaugeReading::centre,        &GaugeReading::momentum,     &GaugeReading::spin,
+    &GaugeReading::force,    &GaugeReading::torque};
 
 constexpr const char* kInSituShare = "in situ share of wall time";  // the last column
-
-/// Words of a table's name: "joint_elastic" is "joint elastic".
-std::string words_of(std::string name) {
-  for (char& c : name) {
-    if (c == '_') c = ' ';
-  }
-  return name;
-}
 
 /// Hands out the numbers of a row in the order of the columns: counts as they are, vectors by component.
 template <class Add>
@@ -80,14 +37,16 @@ void each_number(const HistoryRow& row, Add add) {
   add(row.time_step);
   for (const EnergyTerm& term : kEnergyTerms) add(row.energy.*term.value);
   add(row.energy.residual_relative);
-  for (const Count& count : kCounts) add(row.*count.value);
-  for (const Area& area : kAreas) add(row.*area.value);
-  for (const Vector& vector : kVectors) add_vector(row.*vector.value);
+  for (const auto count : kCounts) add(row.*count);
+  for (const auto area : kAreas) add(row.*area);
+  add_vector(row.momentum);
+  add_vector(row.angular_momentum);
   add(row.max_speed);
   add(row.stress_yy_sum);
   for (const GaugeReading& gauge : row.gauges) {
-    for (const GaugeVector& vector : kGaugeVectors) add_vector(gauge.*vector.value);
+    for (const auto vector : kGaugeVectors) add_vector(gauge.*vector);
   }
+  for (const double value : row.at_points) add(value);
   if (row.insitu_share) add(*row.insitu_share);
 }
 
@@ -106,36 +65,26 @@ bool has_insitu_share(const std::filesystem::path& history) {
 
 }  // namespace
 
-std::vector<std::string> history_columns(const std::vector<std::string>& gauges, bool insitu) {
-  std::vector<std::string> columns{"step", "time [s]", "time step [s]"};
-  for (const EnergyTerm& term : kEnergyTerms) columns.push_back(words_of(term.name) + " [J]");
-  columns.emplace_back("relative residual");
-  for (const Count& count : kCounts) columns.emplace_back(count.name);
-  for (const Area& area : kAreas) columns.push_back(fmt::format("{} [m2]", area.name));
-  for (const Vector& vector : kVectors) {
-    for (const char axis : kAxes) columns.push_back(fmt::format("{} {} [{}]", vector.name, axis, vector.unit));
-  }
-  columns.emplace_back("max speed [m/s]");
-  columns.emplace_back("sum of |stress yy| [Pa]");
-  for (const std::string& gauge : gauges) {
-    for (const GaugeVector& vector : kGaugeVectors) {
-      for (const char axis : kAxes)
-        columns.push_back(fmt::format("{} {} {} [{}]", gauge, vector.name, axis, vector.unit));
-    }
-  }
+std::vector<std::string> history_columns(const std::vector<std::string>& groups,
+                                         const std::vector<case_::Gauge>& gauges, bool insitu) {
+  std::vector<std::string> columns;
+  for (const case_::HistoryColumn& column : case_::history_columns(groups, gauges)) columns.push_back(column.header());
   if (insitu) columns.emplace_back(kInSituShare);
   return columns;
 }
 
 void HistorySink::start(const RunStart& run) {
   gauges_ = run.gauges.size();
+  const std::vector<std::string> columns = history_columns(run.gauges, run.point_gauges, run.insitu);
+  columns_at_points_ = 0;
+  for (const case_::Gauge& gauge : run.point_gauges) columns_at_points_ += case_::columns_of(gauge).size();
   if (run.marks) {
     insitu_before_ = !run.insitu && has_insitu_share(path_);
     file_.emplace(path_, static_cast<std::size_t>(run.marks->history_bytes));
     return;
   }
   std::string header;
-  for (const std::string& column : history_columns(run.gauges, run.insitu)) {
+  for (const std::string& column : columns) {
     if (!header.empty()) header += ',';
     header += csv_field(column);
   }
@@ -151,6 +100,7 @@ std::vector<double> history_values(const HistoryRow& row) {
 
 void HistorySink::history(const HistoryRow& row) {
   DEMAND(file_.has_value() && row.gauges.size() == gauges_, std::to_string(row.gauges.size()) + " gauge readings");
+  DEMAND(row.at_points.size() == columns_at_points_, std::to_string(row.at_points.size()) + " numbers at points");
   std::string text;
   each_number(row, NumberText{text});
   if (insitu_before_) NumberText{text}(0.0);

@@ -6,15 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "case/history_columns.hpp"
 #include "output/sink.hpp"
 #include "system/atomic_file.hpp"
 
 namespace breccia {
 
-/// Names of the history's columns with their units, "time [s]", "kinetic [J]", ..., then for each gauge
-/// "<group> reaction x [N]", ... The order of history_values.
+/// Names of the history's columns with their units, "time [s]", "kinetic [J]", ... The order of history_values.
+/// @param groups, gauges  of the case: output.gauges, [[gauge]]
 /// @param insitu  pipelines are executed during the run: their share of the wall time is the last column
-[[nodiscard]] std::vector<std::string> history_columns(const std::vector<std::string>& gauges, bool insitu = false);
+[[nodiscard]] std::vector<std::string> history_columns(const std::vector<std::string>& groups,
+                                                       const std::vector<case_::Gauge>& gauges = {},
+                                                       bool insitu = false);
 
 /// The numbers of a row in the order of the columns.
 [[nodiscard]] std::vector<double> history_values(const HistoryRow& row);
@@ -27,7 +30,7 @@ class HistorySink final : public Sink {
   explicit HistorySink(std::filesystem::path file) : path_(std::move(file)) {}
 
   void start(const RunStart& run) override;
-  /// @pre row.gauges has the length of RunStart::gauges
+  /// @pre row.gauges has the length of RunStart::gauges, row.at_points a number for each column of its point gauges
   void history(const HistoryRow& row) override;
   void mark(OutputMarks& marks) const override;
   void finish(const Summary&) override;
@@ -35,7 +38,7 @@ class HistorySink final : public Sink {
  private:
   std::filesystem::path path_;
   std::optional<LineFile> file_;
-  std::size_t gauges_ = 0;
+  std::size_t gauges_ = 0, columns_at_points_ = 0;
   bool insitu_before_ = false;  ///< lines so far have the share of pipelines, which the continued run lacks
 };
 

@@ -56,8 +56,8 @@ void flatten(const Json& node, const std::string& path, Values& out) {
     for (const auto& [name, value] : node.items()) flatten(value, path.empty() ? name : path + "." + name, out);
   } else if (node.is_array() && path == "inputs") {
     flatten_inputs(node, out);
-  } else if (node.is_array() && path == "parents") {
-    for (std::size_t i = 0; i < node.size(); ++i) flatten(node[i], "parents[" + std::to_string(i) + "]", out);
+  } else if (node.is_array() && (path == "parents" || path == "conditions")) {
+    for (std::size_t i = 0; i < node.size(); ++i) flatten(node[i], path + "[" + std::to_string(i) + "]", out);
   } else if (node.is_string()) {
     out[path] = node.get<std::string>();
   } else {
@@ -140,13 +140,15 @@ std::string diff_runs(const fs::path& first, const fs::path& second) {
           Problem{run->root.string(), 0, "", "is no folder of a run", "two folders that `run` has made", ""});
   }
   const std::set<std::string> of_a_run{"run", "started", "command_line"};
-  const std::set<std::string> timings{
-      "wall_s",        "element_steps_per_s", "phases",   "max_rss_bytes", "imbalance",   "messages",
-      "message_bytes", "decompositions",      "searches", "insitu",        "checkpoints", "since_resume"};
+  // Beside timings: extremes of gauges, whose columns the history compares.
+  const std::set<std::string> left_out{
+      "wall_s",      "element_steps_per_s", "phases",         "max_rss_bytes", "imbalance",
+      "messages",    "message_bytes",       "decompositions", "searches",      "insitu",
+      "checkpoints", "since_resume",        "gauges"};
   return part("case", differences(case_of(a), case_of(b))) +
          part("inputs, versions, machine",
               differences(json_of(a.provenance(), of_a_run), json_of(b.provenance(), of_a_run))) +
-         part("results", differences(json_of(a.summary(), timings), json_of(b.summary(), timings))) +
+         part("results", differences(json_of(a.summary(), left_out), json_of(b.summary(), left_out))) +
          part("history", history_part(a.history(), b.history()));
 }
 

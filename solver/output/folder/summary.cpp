@@ -12,6 +12,7 @@
 #include "base/printable.hpp"
 #include "base/quantity_text.hpp"
 #include "output/folder/energy_terms.hpp"
+#include "output/folder/summary_gauges.hpp"
 #include "system/atomic_file.hpp"
 #include "system/bounded_file.hpp"
 
@@ -87,6 +88,36 @@ OrderedJson insitu_json(const Summary& summary) {
   return json;
 }
 
+OrderedJson at_time(double value, double time) { return {{"value", value}, {"time", time}}; }
+
+OrderedJson conditions_json(const std::vector<ConditionReport>& conditions) {
+  OrderedJson list = OrderedJson::array();
+  for (const ConditionReport& c : conditions) {
+    OrderedJson values = OrderedJson::object();
+    for (const auto& [name, value] : c.values) values[name] = value;
+    list.push_back({{"key", c.key},
+                    {"when", c.when},
+                    {"action", c.action},
+                    {"times", c.times},
+                    {"first", {{"step", c.first_step}, {"time", c.first_time}}},
+                    {"last", {{"step", c.last_step}, {"time", c.last_time}, {"values", values}}}});
+  }
+  return list;
+}
+
+OrderedJson peaks_json(const std::vector<PeakReport>& peaks) {
+  OrderedJson list = OrderedJson::array();
+  for (const PeakReport& p : peaks) {
+    OrderedJson& entry = list.emplace_back(OrderedJson{{"gauge", p.gauge},
+                                                       {"quantity", p.quantity},
+                                                       {"unit", p.unit},
+                                                       {"largest", at_time(p.largest, p.largest_at)},
+                                                       {"smallest", at_time(p.smallest, p.smallest_at)}});
+    if (p.first_peak) entry["first_peak"] = at_time(*p.first_peak, p.first_peak_at);
+  }
+  return list;
+}
+
 /// Speed, energies and counts of what has happened are of the whole run; what the program has spent is of this span.
 std::string wall_text(const Summary& summary) {
   std::string text = duration_text(summary.wall_s);
@@ -154,6 +185,8 @@ std::string summary_json(const Summary& summary) {
                          {"pause_s", summary.checkpoints.pause_s},
                          {"longest_pause_s", summary.checkpoints.longest_pause_s},
                          {"bytes", summary.checkpoints.bytes}};
+  if (!summary.conditions.empty()) json["conditions"] = conditions_json(summary.conditions);
+  if (!summary.peaks.empty()) json["gauges"] = peaks_json(summary.peaks);
   json["energy"] = OrderedJson::object();
   for (const EnergyTerm& term : kEnergyTerms) json["energy"][term.name] = summary.energy.*term.value;
   json["energy_residual_relative"] = summary.energy.residual_relative;
@@ -177,6 +210,8 @@ std::string summary_text(const Summary& summary) {
   add_phases(text, summary);
   add_pipelines(text, summary);
   add_checkpoints(text, summary.checkpoints);
+  text += conditions_text(summary.conditions);
+  text += peaks_text(summary.peaks);
   add_energies(text, summary.energy);
   add_line(text, "relative energy residual", fmt::format("{:.2e}", summary.energy.residual_relative));
   add_line(text, "memory", bytes_text(summary.max_rss_bytes));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/types.hpp"
@@ -137,6 +138,7 @@ struct HistoryRow {
   double max_speed = 0;
   double stress_yy_sum = 0;  ///< sum |sigma_yy| over the elements, Pa
   std::vector<GaugeReading> gauges;
+  std::vector<double> at_points;       ///< of [[gauge]], in the order of their columns (case/history_columns.hpp)
   std::optional<double> insitu_share;  ///< of the wall time, that pipelines have taken on the first rank
 };
 
@@ -147,6 +149,22 @@ struct PipelineReport {
   double start_s = 0;      ///< s, that the first execution took beyond a usual one: it starts what stays
   double seconds = 0;      ///< s, of all executions without that, on the slowest rank
   std::int64_t bytes = 0;  ///< written by all ranks
+};
+
+/// A condition of the case that became true.
+struct ConditionReport {
+  std::string key, when, action;  ///< "time.stop_when", the condition, "stop"
+  std::int64_t times = 0, first_step = 0, last_step = 0;
+  double first_time = 0, last_time = 0;                  ///< s
+  std::vector<std::pair<std::string, double>> values{};  ///< that it read the last time, by their names
+};
+
+/// Extremes of a column of a gauge.
+struct PeakReport {
+  std::string gauge, quantity, unit;
+  double largest = 0, largest_at = 0, smallest = 0, smallest_at = 0;  ///< and their times, s
+  std::optional<double> first_peak{};                                 ///< output/peaks.hpp
+  double first_peak_at = 0;                                           ///< s
 };
 
 /// Cost of the checkpoints since the run began or was last resumed.
@@ -173,6 +191,8 @@ struct Summary {
   std::vector<std::pair<std::string, double>> phases;  ///< s, in span_s
   std::vector<PipelineReport> insitu;
   CheckpointReport checkpoints;
+  std::vector<ConditionReport> conditions;  ///< of the whole run
+  std::vector<PeakReport> peaks;            ///< likewise
   EnergyBudget energy;
   std::uint64_t max_rss_bytes = 0;
   std::string simd;        ///< "sse2", "avx2", "avx512"

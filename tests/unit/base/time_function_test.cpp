@@ -72,6 +72,15 @@ TEST(TimeFunction, IsNotZeroWhenAnyOfItsTermsIsNot) {
   EXPECT_FALSE(table.is_zero());
 }
 
+TEST(TimeFunction, DoesTheSameEarlier) {
+  TimeFunction f;
+  f.constant = 2.0;
+  f.linear = 3.0;
+  f.sines = {{4.0, 0.7, 0.2}};
+  f.table = {{1.0, 0.0}, {2.0, 5.0}};
+  for (const double t : {-1.0, 0.0, 0.3, 1.4, 9.0}) EXPECT_NEAR(f.earlier(0.6)(t), f(t + 0.6), 1e-13) << t;
+}
+
 TEST(TimeFunction, IsZeroWhenAmplitudesAndTableValuesAreZero) {
   TimeFunction f;
   f.sines = {{0.0, 50.0, 1.0}};

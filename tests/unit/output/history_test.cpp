@@ -107,7 +107,7 @@ TEST_F(HistoryTest, EveryTermOfTheBudgetStandsUnderItsName) {
   e.kinetic = 1, e.elastic = 2, e.joint_elastic = 3, e.contact_stored = 4, e.joint_mode_1 = 5, e.joint_mode_2 = 6;
   e.joint_friction = 7, e.contact_dissipated = 8, e.contact_friction = 9, e.viscous = 10, e.damping = 11;
   e.external_work = 12, e.step_change = 13, e.residual = 14;
-  const std::vector<std::string> columns = history_columns({}, false);
+  const std::vector<std::string> columns = history_columns({});
   const std::vector<double> values = history_values(row);
   ASSERT_EQ(values.size(), columns.size());
   std::vector<std::string> terms;
