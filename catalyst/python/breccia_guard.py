@@ -40,11 +40,27 @@ def install(agree, spare):
     v2_internals.import_and_validate = _guarded(import_into_folder)
     detail._transform_registration_name = _channel_of_source
     breccia_extractors.install()
+    v2_internals.do_catalyst_execute = _naming_files(v2_internals.do_catalyst_execute)
     for name in ("register_module", "do_request_data_description", "do_catalyst_initialize", "do_catalyst_execute",
                  "do_catalyst_finalize"):
         setattr(v2_internals, name, _guarded(getattr(v2_internals, name)))
     # ParaView prints what we raise through this hook; it has been kept already.
     sys.excepthook = _keep_unseen
+
+
+def _naming_files(do_catalyst_execute):
+    """ParaView writes the extracts when this has returned."""
+
+    def call(module):
+        from paraview.catalyst import v2_internals
+
+        result = do_catalyst_execute(module)
+        description = v2_internals._get_active_data_description()
+        information = v2_internals.CatalystV1Information(description) if description else v2_internals.CatalystV2Information()
+        breccia_extractors.name_files(information.time)
+        return result
+
+    return call
 
 
 def _channel_of_source(name):
