@@ -87,6 +87,7 @@ class InSitu {
     Overhead overhead;
     double next_wall = 0;  ///< s, when wall time makes it due again
     std::int64_t passed_over = 0, failures = 0;
+    std::string failure;  ///< the last one
     bool off = false;
     bool even = false;       ///< spaced evenly over the run
     double interval = 0;     ///< s, simulated: of an even one without triggers; 0: it has triggers
@@ -109,9 +110,10 @@ class InSitu {
   void space_one(Pipeline& pipeline, double share);
   void run_one(std::size_t pipeline, const BrecciaInstant& instant, double shared_cost);
   [[nodiscard]] std::string close();
-  void tell_animations(const std::string& lines);
+  void tell_end(const std::string& lines);
   void fail(Pipeline& pipeline, const std::string& why);
   void tell_notices();
+  void tell_lines(const std::string& lines);
   void open_index(const std::filesystem::path& file);
   void list_step();
 
