@@ -1,4 +1,4 @@
-"""A script that ParaView's export has written, in a run and in a replay, on one and on two ranks.
+"""Scripts under a run and in a replay: one that ParaView's export has written, on one and on two ranks; pictures from all sides.
 
 usage: exported_script_test.py PROGRAM MPIEXEC PVPYTHON XVFB_RUN
 """
@@ -72,7 +72,7 @@ class ExportedScript(unittest.TestCase):
 
     @classmethod
     def run_case(cls, name, ranks, *scripts):
-        pipelines = ",".join(PIPELINE.format(pipeline) for pipeline in ("surface", "volume", *scripts))
+        pipelines = ",".join(PIPELINE.format(pipeline) for pipeline in ("surface", "volume", "fractures", *scripts))
         return cls.on_ranks(ranks, ["run", "case.toml", "-o", name, "--progress", "none", "--set", f"insitu.pipeline=[{pipelines}]"])
 
     def compare(self, records, extracts, ranks):
@@ -89,6 +89,16 @@ class ExportedScript(unittest.TestCase):
         for ranks in (1, 2):
             self.on_ranks(ranks, ["insitu", "replay", "recorded", self.script, "-o", f"replay_{ranks}"])
             self.compare("recorded/extracts", f"replay_{ranks}/exported", ranks)
+
+    def test_pictures_from_all_sides_show_the_model_alone(self):
+        self.on_ranks(1, ["insitu", "replay", "recorded", "stress", "-p", "orbit=4", "-o", "orbit"])
+        folder = os.path.join(self.folder, "orbit", "stress")
+        with open(os.path.join(folder, "data.csv"), encoding="utf-8") as table:
+            rows = table.read().splitlines()
+        instants = len({row.split(",")[0] for row in rows[1:]})
+        self.assertEqual((rows[0], len(rows) - 1), ("time,phi,theta,FILE", 8 * instants))
+        self.assertEqual(len([name for name in os.listdir(folder) if name.endswith(".png")]), 8 * instants)
+        self.call([PVPYTHON, os.path.join(HERE, "blank_rim.py"), folder])
 
 
 if __name__ == "__main__":
