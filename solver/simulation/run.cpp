@@ -209,10 +209,13 @@ class Runner {
   void advance(bool end, bool last) {
     const double time = clock().time;
     const bool line = output_.line_due() || end;
-    step(partition_.domain(), {line || last, signals()});
+    const bool row = insitu_ && insitu_->waits_for_row();
+    step(partition_.domain(), {line || last || row, signals()});
     const bool sampled = line || last || partition_.state().signals.received.stop;
     sampled_without_line_ = sampled ? std::optional(time) : std::nullopt;
     if (line) take_line(time);
+    if (row && !line) output_.take_row(time, *insitu_);
+    if (row) insitu_->execute_late();
     if (line || last) check_energies(time);
     output_.tell_status(paused_);
     if (!sampled_without_line_) partition_.keep_up();  // a line that is to come needs what a division forgets

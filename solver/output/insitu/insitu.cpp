@@ -171,6 +171,7 @@ InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
     if (channels == 0) continue;
     plan.channels |= channels;
     plan.pipelines |= bit(i);
+    if (channels == std::uint32_t{1} << BRECCIA_HISTORY) plan.rows |= bit(i);
   }
   if (!plan) {
     account_idle(due);
@@ -210,9 +211,16 @@ void InSitu::execute(const Plan& plan, const Frame& frame, const std::vector<std
   tell_notices();
 }
 
+void InSitu::execute_late(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns,
+                          const std::optional<std::vector<double>>& row) {
+  planned_ = Clock::now();
+  execute(plan, frame, columns, row);
+}
+
 /// Before anything is written, so that a run resumed from an earlier step knows it. Without the line, extracts of this
 /// step stay where such a run ends before it.
 void InSitu::list_step() {
+  if (std::exchange(listed_, now_.step) == now_.step) return;
   try {
     communicator_.agree([&] {
       if (steps_) steps_->append_line(fmt::format("{},{:.17g}", now_.step, now_.time));
