@@ -76,11 +76,12 @@ void Adaptor::end_pipelines() {
 
 std::string Adaptor::finish() {
   end_pipelines();
+  std::string text = notices();
   std::vector<std::filesystem::path> folders;
   for (const Named& pipeline : pipelines_) {
     if (pipeline.work->draws()) folders.push_back(folder_ / std::filesystem::path(pipeline.name).stem());
   }
-  return ranks_.is_root() ? make_animations(folders) : std::string();
+  return ranks_.is_root() ? text + make_animations(folders) : std::string();
 }
 
 void Adaptor::start_display(const BrecciaConfig& config) {
@@ -142,10 +143,7 @@ std::uint32_t Adaptor::channels(int pipeline, std::int64_t step, double time) {
 
 std::string Adaptor::notices() {
   std::string text;
-  for (const Named& pipeline : pipelines_) {
-    if (const std::string notice = pipeline.work->notice(); !notice.empty())
-      text += pipeline.name + ": " + notice + '\n';
-  }
+  for (const Named& pipeline : pipelines_) text += with_name(pipeline.name, pipeline.work->notice());
   return text;
 }
 

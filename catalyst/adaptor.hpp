@@ -45,7 +45,7 @@ class Adaptor {
   [[nodiscard]] std::string notices();
 
   /// Ends the pipelines and makes animations of their pictures; nothing can be executed afterwards.
-  /// @return  lines about the animations, on the first rank
+  /// @return  notices of the end, and lines about the animations, on the first rank
   [[nodiscard]] std::string finish();
 
   /// On this rank; not collective.

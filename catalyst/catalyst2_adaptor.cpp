@@ -231,13 +231,18 @@ void Catalyst2Adaptor::end() {
   last_.reset();
 }
 
+std::string Catalyst2Adaptor::notices() {
+  return bridge_ ? agreed_notices(ranks_, bridge_->take_notices()) : std::string();
+}
+
 std::string Catalyst2Adaptor::finish() {
   end();
+  const std::string text = notices();
   std::vector<std::filesystem::path> folders;
   for (const Named& pipeline : pipelines_) {
     if (!pipeline.folder.empty()) folders.push_back(pipeline.folder);
   }
-  return ranks_.is_root() ? make_animations(folders) : std::string();
+  return ranks_.is_root() ? text + make_animations(folders) : std::string();
 }
 
 std::int64_t Catalyst2Adaptor::bytes_written(int pipeline) const {

@@ -35,7 +35,8 @@ class Catalyst2Adaptor {
   [[nodiscard]] std::uint32_t channels(int pipeline, std::int64_t step, double time) const;
   std::uint32_t execute(std::uint32_t pipelines, const BrecciaInstant& instant, BrecciaRequests& requests,
                         std::string& text);
-  [[nodiscard]] static std::string notices() { return {}; }
+  /// See Adaptor::notices.
+  [[nodiscard]] std::string notices();
   /// Ends the implementation and makes animations of pictures. @return  lines about them, on the first rank
   [[nodiscard]] std::string finish();
   [[nodiscard]] std::int64_t bytes_written(int pipeline) const;  ///< not collective

@@ -14,6 +14,8 @@
 #include <vtkPVVersion.h>
 #include <vtkSMProxy.h>
 #include <vtkSMProxyIterator.h>
+#include <vtkSMProxyManager.h>
+#include <vtkSMSessionProxyManager.h>
 
 #include <cerrno>
 #include <cstring>
@@ -23,6 +25,7 @@
 #include "catalyst/frame_to_vtk.hpp"
 #include "catalyst/messages.hpp"
 #include "catalyst/own_mpi.hpp"
+#include "catalyst/pipeline_loop.hpp"
 #include "catalyst/python_guard.hpp"
 
 namespace breccia::insitu {
@@ -68,6 +71,7 @@ class UserData {
 /// memory is read before the next execution.
 void empty_producers() {
   vtkNew<vtkSMProxyIterator> proxies;
+  proxies->SetSessionProxyManager(vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager());
   proxies->SetModeToOneGroup();
   for (proxies->Begin("sources"); proxies->IsAtEnd() == 0; proxies->Next()) {
     auto* producer = vtkPVTrivialProducer::SafeDownCast(proxies->GetProxy()->GetClientSideObject());
@@ -79,6 +83,12 @@ void empty_producers() {
     producer->SetOutput(empty, time);
     proxies->GetProxy()->MarkModified(proxies->GetProxy());
   }
+}
+
+/// Warnings of ParaView's for which no script is to blame: channels have one time, and may be without cells.
+bool is_of_channels(const std::string& warning) {
+  return warning.starts_with("vtkPVTrivialProducer: ") ||
+         warning.starts_with("vtkSMPVRepresentationProxy: Could not determine array range");
 }
 
 class ScriptPipeline final : public Pipeline {
@@ -144,7 +154,8 @@ class ScriptPipeline final : public Pipeline {
     script_->CoProcess(description);  // its result is also 0 when a trigger of the script is not met
     empty_producers();
     const std::string error = error_now();
-    dropped_ = dropped_ || watch_.interrupted();
+    // ParaView would execute what it could not initialize, and read memory that it does not have.
+    dropped_ = dropped_ || watch_.interrupted() || !python::usable();
     if (!error.empty()) throw PipelineError(error);
     user_data.add_to(requests);
   }
@@ -159,12 +170,23 @@ class ScriptPipeline final : public Pipeline {
     if (is_.display != nullptr && !ranks_.agree(is_.display->lost() ? "lost" : "").empty()) return;
     const ScriptWatch::Turn turn(watch_, "pipeline " + is_.name);
     enter();
+    if (!python::usable()) return;
     script_->Finalize();
-    static_cast<void>(error_now());
+    end_failure_ = ranks_.agree(error_now());
+  }
+
+  [[nodiscard]] std::string notice() override {
+    std::string text = agreed_notices(ranks_, python::take_output(is_.folder));
+    if (const std::string failure = std::exchange(end_failure_, {}); !failure.empty())
+      text += std::string(kWarning) + "at its end: " + failure + '\n';
+    return text;
   }
 
  private:
-  void enter() const { python::enter(is_.name, is_.file, is_.folder, is_.parameters, is_.about); }
+  void enter() const {
+    python::enter(is_.name, is_.file, is_.folder, is_.parameters, is_.about);
+    static_cast<void>(take_warnings());  // of others
+  }
 
   /// Reason to end it, on this rank; empty: none.
   [[nodiscard]] std::string reason_to_end() const {
@@ -179,10 +201,14 @@ class ScriptPipeline final : public Pipeline {
     return error || space.available >= kLeastSpace ? std::string() : is_.folder.string() + ": " + std::strerror(ENOSPC);
   }
 
-  /// What Python raised or VTK reported since the last call.
+  /// What Python raised or VTK reported since the last call. Warnings become output of the script.
   [[nodiscard]] static std::string error_now() {
     const std::string raised = python::take_error();
     const std::string reported = take_errors();
+    for (const std::string& warning : take_warnings()) {
+      if (!is_of_channels(warning)) python::add_output(warning, python::Output::warning);
+    }
+    if (!reported.empty()) python::add_output("VTK: " + reported + '\n', python::Output::log);
     return raised.empty() ? reported : raised;
   }
 
@@ -205,6 +231,7 @@ class ScriptPipeline final : public Pipeline {
   bool executed_ = false;
   bool dropped_ = false;  ///< it has taken too long, or cannot draw any more
   std::string pending_;   ///< exception of the script at the query of its channels
+  std::string end_failure_;
   std::int64_t written_before_ = 0;
 };
 

@@ -29,6 +29,7 @@ class FirstRankPipeline final : public Pipeline {
   void execute(const Frame& frame, BrecciaRequests& requests) override {
     if (work_) work_->execute(frame, requests);
   }
+  [[nodiscard]] std::string notice() override { return ranks_.agree(work_ ? work_->notice() : std::string()); }
   [[nodiscard]] std::int64_t bytes_written() const override { return work_ ? work_->bytes_written() : 0; }
   [[nodiscard]] bool draws() const override { return true; }
   void finish() override {

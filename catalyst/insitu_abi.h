@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define BRECCIA_INSITU_ABI_VERSION 7
+#define BRECCIA_INSITU_ABI_VERSION 8
 
 /* The channels: frozen names, in this order everywhere. A set of channels is a mask of bits 1 << channel. */
 enum {
@@ -167,20 +167,20 @@ typedef struct {
   int64_t (*execute)(void* adaptor, uint32_t pipelines, const BrecciaInstant* instant, BrecciaRequests* requests,
                      char* text, size_t size);
 
-  /* Notices of the pipelines since the last call, failures excluded, a line each: the same on all ranks.
-   * Collective; between calls of `channels` and `execute`. */
+  /* Notices of the pipelines since the last call, failures of an execution excluded, a line each, warnings with
+   * "warning: " in front: the same on all ranks. Collective; between calls of `channels` and `execute`. */
   void (*notices)(void* adaptor, char* text, size_t size);
 
   /* Bytes that a pipeline has written on this rank so far. */
   int64_t (*bytes_written)(void* adaptor, int32_t pipeline);
 
-  /* Ends the pipelines, and all that open has started; the first rank makes animations of the pictures. Their
-   * notices are in the text, a line each, on the first rank. Collective, before MPI_Finalize. */
+  /* Ends the pipelines, and all that open has started; the first rank makes animations of the pictures. The
+   * notices of all this are in the text, as above, on the first rank. Collective, before MPI_Finalize. */
   void (*close)(void* adaptor, char* text, size_t size);
 
   /* Feeds what pipelines recorded (folder/<channel>/, as "volume", "fractures", "surface" and others write it) through
-   * the pipelines of the config as if a solver ran. folder_of_records is absolute. 0: all instants passed; the text is
-   * that of close. Collective. */
+   * the pipelines of the config as if a solver ran. folder_of_records is absolute. 0: all instants passed; the text has
+   * the notices, on the first rank those of close too. Collective. */
   int32_t (*replay)(const BrecciaConfig* config, const char* folder_of_records, char* text, size_t size);
 } BrecciaInsituApi;
 

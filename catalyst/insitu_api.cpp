@@ -20,8 +20,8 @@ struct ParaViewBackend {
         throw PipelineError(std::string(config.pipelines[i].name) + ": a replay passes all recorded data");
     }
     Adaptor adaptor(config, true);
-    insitu::replay(adaptor, folder);
-    return adaptor.finish();
+    const std::string notices = insitu::replay(adaptor, folder);
+    return notices + adaptor.finish();
   }
 };
 

@@ -98,7 +98,7 @@ auto LivePipeline::limited(std::optional<std::chrono::milliseconds> limit, Call&
 
 std::string LivePipeline::notice() {
   if (ranks_.from_root(std::int64_t{std::exchange(cut_, false)}) == 0) return {};
-  return "ParaView did not respond within 30 s; the connection was closed";
+  return "warning: ParaView did not respond within 30 s; the connection was closed\n";
 }
 
 std::uint32_t LivePipeline::channels(std::int64_t, double) {

@@ -5,6 +5,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 
+#include <algorithm>
 #include <regex>
 #include <utility>
 
@@ -15,12 +16,20 @@ namespace {
 
 std::string first_error;  // the others of an execution mostly follow from it
 int further_errors = 0;
+std::vector<std::string> warnings;
+constexpr std::size_t kMostWarnings = 100;  // which differ; nobody may take them
 
-/// "ERROR: In file.cxx, line 12\nvtkName (0x55d0): what" -> "vtkName: what".
+/// "ERROR: In file.cxx, line 12\nvtkName (0x55d0): what" -> "vtkName: what"; the same of a warning.
 std::string shortened(const std::string& text) {
-  static const std::regex place(R"(^(ERROR: )?In [^ ]+, line \d+ )");
+  static const std::regex place(R"(^((ERROR|Warning|Generic Warning): )?In [^ ]+, line \d+ (\(nullptr\): )?)");
   static const std::regex address(R"( \(0x[0-9a-f]+\):)");
   return std::regex_replace(std::regex_replace(one_line(text), place, ""), address, ":");
+}
+
+void keep_warning(const char* text) {
+  std::string line = shortened(text);
+  if (warnings.size() < kMostWarnings && std::find(warnings.begin(), warnings.end(), line) == warnings.end())
+    warnings.push_back(std::move(line));
 }
 
 class KeepErrors final : public vtkOutputWindow {
@@ -40,8 +49,8 @@ class KeepErrors final : public vtkOutputWindow {
       ++further_errors;
     }
   }
-  void DisplayWarningText(const char*) override {}
-  void DisplayGenericWarningText(const char*) override {}
+  void DisplayWarningText(const char* text) override { keep_warning(text); }
+  void DisplayGenericWarningText(const char* text) override { keep_warning(text); }
   void DisplayDebugText(const char*) override {}
 
  protected:
@@ -64,5 +73,7 @@ std::string take_errors() {
   if (further > 0) text += " (and " + std::to_string(further) + " more)";
   return text;
 }
+
+std::vector<std::string> take_warnings() { return std::exchange(warnings, {}); }
 
 }  // namespace breccia::insitu

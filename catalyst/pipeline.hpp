@@ -36,7 +36,8 @@ class Pipeline {
   /// It may throw PipelineError on some ranks only, but not between its own collective operations.
   virtual void execute(const Frame& frame, BrecciaRequests& requests) = 0;
 
-  /// Notice since the last call that is no failure, the same on all ranks; mostly "".
+  /// Notices since the last call that are no failures, the same on all ranks: lines that end with a newline, warnings
+  /// with "warning: " in front; mostly "". Also called once after finish().
   [[nodiscard]] virtual std::string notice() { return {}; }
 
   /// Bytes written on this rank. Not collective.
@@ -45,7 +46,7 @@ class Pipeline {
   /// Whether there may be pictures in its folder. Not collective.
   [[nodiscard]] virtual bool draws() const { return false; }
 
-  /// Ends it; it is not used any more.
+  /// Ends it; but for its notices it is not used any more.
   virtual void finish() {}
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <sstream>
 #include <string>
+#include <string_view>
 
 #include "catalyst/channel_names.hpp"
 #include "catalyst/pipeline_error.hpp"
@@ -9,6 +11,9 @@
 #include "catalyst/whole_file.hpp"
 
 namespace breccia::insitu {
+
+/// In front of a line of notices that warns.
+constexpr std::string_view kWarning = "warning: ";
 
 /// What call() fails of on any rank, the same on all; empty: nothing. Collective. Throws Abandoned with the name.
 template <class Call>
@@ -28,6 +33,24 @@ template <class Call>
   } catch (const Abandoned& wait) {
     throw Abandoned(name + ": " + wait.what());
   }
+}
+
+/// This rank's notices to those of all: the first rank's, and those of the lowest one that has others. Collective.
+[[nodiscard]] inline std::string agreed_notices(const Ranks& ranks, const std::string& mine) {
+  const std::string none, first = ranks.agree(ranks.is_root() ? mine : none);
+  return first + ranks.agree(ranks.is_root() ? none : mine);
+}
+
+/// Lines of a pipeline's notices as they leave the adaptor, with its name.
+[[nodiscard]] inline std::string with_name(const std::string& name, const std::string& notices) {
+  std::istringstream lines(notices);
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    const bool warns = line.starts_with(kWarning);
+    text += (warns ? std::string(kWarning) : "") + "pipeline " + name + ": " +
+            one_line(line.substr(warns ? kWarning.size() : 0)) + '\n';
+  }
+  return text;
 }
 
 /// Calls work(i) for each pipeline of a mask, one after the other; name_of(i) is its name. Those that fail on any

@@ -15,6 +15,7 @@ namespace breccia::insitu::python {
 namespace {
 
 constexpr const char* kGuard = "breccia_guard";
+constexpr const char* kOutput = "breccia_output";
 
 /// Of the scripts' turns.
 ScriptWatch* script_watch = nullptr;
@@ -75,11 +76,11 @@ std::string raised() {
   return one_line(line);
 }
 
-/// Calls function(arguments) of the guard; `arguments` is a tuple, which is released. Throws PipelineError with what it
+/// Calls function(arguments) of a module; `arguments` is a tuple, which is released. Throws PipelineError with what it
 /// raises.
-vtkSmartPyObject call(const char* function, PyObject* arguments) {
+vtkSmartPyObject call(const char* function, PyObject* arguments, const char* of_module = kGuard) {
   const vtkSmartPyObject tuple(arguments);
-  const vtkSmartPyObject module(PyImport_ImportModule(kGuard));
+  const vtkSmartPyObject module(PyImport_ImportModule(of_module));
   const vtkSmartPyObject callable(module ? PyObject_GetAttrString(module, function) : nullptr);
   vtkSmartPyObject result(callable && tuple ? PyObject_CallObject(callable, tuple) : nullptr);
   if (!result) throw PipelineError("Python: " + raised());
@@ -123,6 +124,25 @@ std::string take_error() {
   const vtkSmartPyObject text = call("take_error", PyTuple_New(0));
   const char* line = PyUnicode_AsUTF8(text);
   return line == nullptr ? raised() : std::string(line);
+}
+
+bool usable() {
+  const vtkPythonScopeGilEnsurer lock;
+  return PyObject_IsTrue(call("usable", PyTuple_New(0))) == 1;
+}
+
+void add_output(const std::string& text, Output kind) {
+  const vtkPythonScopeGilEnsurer lock;
+  // Bytes that are no UTF-8 are replaced, as by Python's own streams.
+  PyObject* const words = PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
+  call(kind == Output::warning ? "warn" : "record", Py_BuildValue("(N)", words), kOutput);
+}
+
+std::string take_output(const std::filesystem::path& folder) {
+  const vtkPythonScopeGilEnsurer lock;
+  const vtkSmartPyObject text = call("take", Py_BuildValue("(s)", folder.c_str()), kOutput);
+  const char* lines = PyUnicode_AsUTF8(text);
+  return lines == nullptr ? raised() : std::string(lines);
 }
 
 }  // namespace breccia::insitu::python

@@ -129,15 +129,18 @@ auto agreed(const Ranks& ranks, const Work& work) -> decltype(work()) {
   return result;
 }
 
+constexpr std::size_t kMostNotices = 1 << 16;  // bytes
+
 }  // namespace
 
-void replay(Adaptor& adaptor, const fs::path& folder) {
+std::string replay(Adaptor& adaptor, const fs::path& folder) {
   const Ranks& ranks = adaptor.ranks();
   const Records records = agreed(ranks, [&] { return read_records(folder); });
   std::uint32_t recorded = 0;
   for (const auto& [step, instant] : records.instants) recorded |= instant.channels();
   std::uint32_t failed = 0;
-  std::string failures;
+  std::string failures, notices;
+  bool withheld = false;
   for (const auto& [step, instant] : records.instants) {
     std::uint32_t pipelines = 0;
     std::uint32_t channels = 0;
@@ -158,8 +161,14 @@ void replay(Adaptor& adaptor, const fs::path& folder) {
     const std::uint32_t now = adaptor.execute(pipelines, frame, requests, text);
     if (now != 0) failures += (failures.empty() ? "step " : "; step ") + std::to_string(step) + ": " + one_line(text);
     failed |= now;
+    if (const std::string text = adaptor.notices(); notices.size() + text.size() < kMostNotices) {
+      notices += text;
+    } else {
+      withheld = true;
+    }
   }
   if (failed != 0) throw PipelineError(failures);
+  return withheld ? notices + "further output of the scripts is in their logs, script.log\n" : notices;
 }
 
 }  // namespace breccia::insitu

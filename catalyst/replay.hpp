@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "catalyst/adaptor.hpp"
 
@@ -11,6 +12,7 @@ namespace breccia::insitu {
 /// channels. The recorded pieces are dealt out to the ranks in contiguous shares. One that fails is not executed again,
 /// and the others continue. Collective. Throws PipelineError, on all ranks: nothing recorded, a channel that a pipeline
 /// needs was never recorded, files that cannot be read; in the end, with the failures of the pipelines.
-void replay(Adaptor& adaptor, const std::filesystem::path& folder);
+/// @return  notices of the pipelines, see Adaptor::notices
+[[nodiscard]] std::string replay(Adaptor& adaptor, const std::filesystem::path& folder);
 
 }  // namespace breccia::insitu

@@ -7,6 +7,7 @@
 
 #include "catalyst/display.hpp"
 #include "catalyst/pipeline_error.hpp"
+#include "catalyst/pipeline_loop.hpp"
 
 namespace breccia::insitu {
 
@@ -20,6 +21,7 @@ struct ScriptBridge::Functions {
   void (*done)(const char* error);
   int (*request)(const char* name, double value);
   void (*spare)(void* display);
+  void (*note)(const char* script, const char* lines);
 };
 
 ScriptBridge* ScriptBridge::active = nullptr;
@@ -48,7 +50,7 @@ ScriptBridge::ScriptBridge(const Ranks& ranks, TurnWatch& watch, const BrecciaCo
 ScriptBridge::~ScriptBridge() { active = nullptr; }
 
 std::string ScriptBridge::address() {
-  static const Functions functions{scripts, turn, agree, done, request, spare_process};
+  static const Functions functions{scripts, turn, agree, done, request, spare_process, note};
   return std::to_string(reinterpret_cast<std::uintptr_t>(&functions));
 }
 
@@ -91,6 +93,10 @@ void ScriptBridge::done(const char* error) {
   if (active == nullptr) return;
   active->done_ = true;
   if (active->error_.empty()) active->error_ = error;
+}
+
+void ScriptBridge::note(const char* script, const char* lines) {
+  if (active != nullptr) active->notices_ += with_name(script, lines);
 }
 
 int ScriptBridge::request(const char* name, double value) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "catalyst/insitu_abi.h"
@@ -20,9 +21,9 @@ struct BridgedScript {
 };
 
 /// Data exchanged with python/breccia_catalyst2.py, the first script of ParaView's implementation: the script to
-/// execute, whether another rank has failed; and in return the exception of the script, and its requests to the solver.
-/// Catalyst 2 itself runs all scripts at every execution and does not report their exceptions. The script finds the
-/// functions by the address in its argument.
+/// execute, whether another rank has failed; and in return the exception of the script, its output, and its requests
+/// to the solver. Catalyst 2 itself runs all scripts at every execution and does not report their exceptions. The
+/// script finds the functions by the address in its argument.
 class ScriptBridge {
  public:
   /// One a process at a time. @pre ranks and watch outlive this
@@ -42,6 +43,9 @@ class ScriptBridge {
   /// when other ranks have not come in time. Adds its requests.
   void take_result(BrecciaRequests& requests);
 
+  /// Notices of the scripts since the last call, see with_name; on this rank.
+  [[nodiscard]] std::string take_notices() { return std::exchange(notices_, {}); }
+
  private:
   struct Functions;
   static ScriptBridge* active;
@@ -50,13 +54,14 @@ class ScriptBridge {
   static int agree(const char* text);
   static void done(const char* error);
   static int request(const char* name, double value);
+  static void note(const char* script, const char* lines);
 
   const Ranks& ranks_;
   TurnWatch& watch_;
   std::string scripts_;  ///< JSON
   std::string turn_;
   bool done_ = false;
-  std::string error_, abandoned_;
+  std::string error_, abandoned_, notices_;
   BrecciaRequests requests_{};
 };
 

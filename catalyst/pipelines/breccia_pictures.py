@@ -161,6 +161,7 @@ class Picture:
         self._placed = False
         self._bodies = None
         self._keys = []
+        self._orbit = orbit = breccia_insitu.parameter("orbit", 0)
         self._title = self.words("", 1.15, bold=True)
         self._lines = self.words("")
         self._names = [self.words("") for _ in copies]
@@ -172,7 +173,6 @@ class Picture:
         self.extractor.Trigger = "TimeStep"
         self.extractor.Writer.FileName = name + "_{timestep:09d}{camera}.png"
         self.extractor.Writer.ImageResolution = self.view.ViewSize
-        self._orbit = orbit = breccia_insitu.parameter("orbit", 0)
         if orbit > 0:
             self.extractor.Writer.CameraMode = "Phi-Theta"
             self.extractor.Writer.PhiResolution = orbit
@@ -196,7 +196,9 @@ class Picture:
         words[1].Position = [x, y]
 
     def line_of(self, source, colour, width=4.0):
+        """A line of the length scale or of a key; not in an orbit, in which it would stand in the model."""
         shown = Show(source, self.view)
+        shown.Visibility = int(self._orbit == 0)
         shown.ColorArrayName = ["POINTS", ""]
         shown.DiffuseColor = shown.AmbientColor = colour
         shown.Ambient, shown.Diffuse = 1.0, 0.0

@@ -22,6 +22,7 @@ except ImportError:
     import breccia_guard
 
 import breccia_insitu
+import breccia_output
 
 NEVER = 2**31 - 1  # a time step
 
@@ -33,7 +34,8 @@ class Functions(ctypes.Structure):
     _fields_ = [("scripts", ctypes.CFUNCTYPE(ctypes.c_char_p)), ("turn", ctypes.CFUNCTYPE(ctypes.c_char_p)),
                 ("agree", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_char_p)), ("done", ctypes.CFUNCTYPE(None, ctypes.c_char_p)),
                 ("request", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_char_p, ctypes.c_double)),
-                ("spare", ctypes.CFUNCTYPE(None, ctypes.c_void_p))]
+                ("spare", ctypes.CFUNCTYPE(None, ctypes.c_void_p)),
+                ("note", ctypes.CFUNCTYPE(None, ctypes.c_char_p, ctypes.c_char_p))]
 
 
 solver = Functions.from_address(int(catalyst.get_args()[0]))
@@ -62,6 +64,12 @@ def request(name, value):
 def enter(path):
     script = scripts[path]
     breccia_guard.enter(script["name"], path, script["folder"], script["parameters"], script["about"])
+
+
+def note(path):
+    """Passes on what the script has written."""
+    script = scripts[path]
+    solver.note(script["name"].encode(), breccia_output.take(script["folder"]).encode(errors="replace"))
 
 
 def step_trigger(options):
@@ -113,6 +121,7 @@ def execute(function):
         except breccia_guard.ScriptFailed:
             pass
         solver.done(breccia_guard.take_error().encode())
+        note(path)
         return True
 
     return call
@@ -121,9 +130,18 @@ def execute(function):
 def finish(function):
     def call(module):
         path = catalyst.get_script_filename()
-        if path in scripts:
-            enter(path)
-        return function(module)
+        if path not in scripts:
+            return function(module)
+        if path in failed:
+            return None
+        enter(path)
+        try:
+            function(module)
+        except breccia_guard.ScriptFailed:
+            if error := breccia_guard.take_error():
+                breccia_output.warn(f"at its end: {error}")
+        note(path)
+        return None
 
     return call
 
@@ -148,3 +166,4 @@ def catalyst_execute(info):
         gate(path)
     if turn() in failed:
         solver.done(failed[turn()].encode())
+        note(turn())

@@ -1,9 +1,10 @@
 """Stands between ParaView Catalyst and the scripts that it runs; the adaptor calls it.
 
-What a script raises is kept as one line instead of being printed as a traceback; when it raises on one rank, it has raised on all of them, so
-that no rank continues alone into work that needs the others; sys.exit ends the script's step, not the process.
+What a script raises is kept as one line instead of being printed as a traceback, which goes to its log; when it raises on one rank, it has
+raised on all of them, so that no rank continues alone into work that needs the others; sys.exit ends the script's step, not the process.
 """
 
+import importlib
 import os
 import re
 import sys
@@ -11,9 +12,11 @@ import traceback
 
 import breccia_extractors
 import breccia_insitu
+import breccia_output
 
 _error = ""
 _script = ""
+_unusable = set()  # scripts that raised when they were imported or initialized
 _agree = None
 _spare = None
 
@@ -23,6 +26,7 @@ def install(agree, spare):
     text; it raises if another rank does not take part. spare(display) keeps the process alive when the server of an X display, an address,
     has closed."""
     global _agree, _spare
+    from paraview import catalyst
     from paraview.catalyst import detail, v2_internals
 
     _agree, _spare = agree, spare
@@ -32,19 +36,39 @@ def install(agree, spare):
     import_and_validate = v2_internals.import_and_validate
 
     def import_into_folder(name):
-        module = import_and_validate(name)
+        module = importlib.import_module(name)
+        if not hasattr(module, "options"):  # ParaView warns of that; the case is what counts
+            module.options = catalyst.Options()
+        import_and_validate(name)
         # Extracts go where the solver wants them, whatever folder stood in ParaView's dialogue when the script was exported.
         module.options.ExtractsOutputDirectory = breccia_insitu.folder()
         return module
 
-    v2_internals.import_and_validate = _guarded(import_into_folder)
+    v2_internals.import_and_validate = _guarded(import_into_folder, starts=True)
     detail._transform_registration_name = _channel_of_source
     breccia_extractors.install()
-    for name in ("register_module", "do_request_data_description", "do_catalyst_initialize", "do_catalyst_execute",
-                 "do_catalyst_finalize"):
+    breccia_output.install()
+    v2_internals.do_catalyst_execute = _naming_files(v2_internals.do_catalyst_execute)
+    v2_internals.do_catalyst_initialize = _guarded(v2_internals.do_catalyst_initialize, starts=True)
+    for name in ("register_module", "do_request_data_description", "do_catalyst_execute", "do_catalyst_finalize"):
         setattr(v2_internals, name, _guarded(getattr(v2_internals, name)))
     # ParaView prints what we raise through this hook; it has been kept already.
     sys.excepthook = _keep_unseen
+
+
+def _naming_files(do_catalyst_execute):
+    """ParaView writes the extracts when this has returned."""
+
+    def call(module):
+        from paraview.catalyst import v2_internals
+
+        result = do_catalyst_execute(module)
+        description = v2_internals._get_active_data_description()
+        information = v2_internals.CatalystV1Information(description) if description else v2_internals.CatalystV2Information()
+        breccia_extractors.name_files(information.time)
+        return result
+
+    return call
 
 
 def _channel_of_source(name):
@@ -58,6 +82,7 @@ def enter(name, script, folder, parameters, about):
     _error = ""
     _script = script
     breccia_insitu.set_active(name, folder, parameters, about)
+    breccia_output.enter(folder)
     directory = os.path.dirname(script)
     if directory not in sys.path:
         sys.path.append(directory)  # modules beside the script
@@ -70,11 +95,19 @@ def take_error():
     return text
 
 
+def usable():
+    """Whether ParaView can execute the script: not after a failure of its import or of its catalyst_initialize, on any rank, which leaves ParaView
+    without the objects that an execution reads."""
+    return _script not in _unusable
+
+
 class ScriptFailed(Exception):
     """A script raised, on this rank or on another one."""
 
 
-def _guarded(function):
+def _guarded(function, starts=False):
+    """`starts`: without its success the script cannot be executed."""
+
     def call(*arguments):
         global _error
         result, text = None, ""
@@ -82,8 +115,11 @@ def _guarded(function):
             result = function(*arguments)
         except BaseException as error:  # SystemExit and KeyboardInterrupt too: the solver decides when to end
             text = _described(error)
+            breccia_output.record("".join(traceback.format_exception(type(error), error, error.__traceback__)))
         _spare_windows()
         if _agree(text):
+            if starts:
+                _unusable.add(_script)
             _error = _error or text  # nothing where only another rank has something to tell
             raise ScriptFailed(_error)
         return result
@@ -124,6 +160,13 @@ def _described(error):
         frames = traceback.extract_tb(error.__traceback__)
         own = [frame for frame in frames if os.path.abspath(frame.filename) == _script] or frames
         place = (own[-1].filename, own[-1].lineno) if own else ("", 0)
-        message = "called sys.exit" if isinstance(error, SystemExit) else str(error)
+        message = "called sys.exit" if isinstance(error, SystemExit) else _message_of(error)
     where = f" ({os.path.basename(place[0])}:{place[1]})" if place[0] else ""
     return " ".join(f"{type(error).__name__}: {message}{where}".split())
+
+
+def _message_of(error):
+    try:
+        return str(error)
+    except Exception:  # the script's own class
+        return "an error without a text"

@@ -135,7 +135,7 @@ def coloured(source, view, array, association="CELLS", highest=None):
             table.RescaleTransferFunction(0.0, highest)
     bar = simple.GetScalarBar(table, view)
     bar.TitleColor = bar.LabelColor = INK
-    bar.HorizontalTitle = 1
+    bar.WindowLocation, bar.Position, bar.ScalarBarLength = "Any Location", [0.85, 0.2], 0.6  # its title runs beside it, whole
     shown.SetScalarBarVisibility(view, True)
     shown.Ambient, shown.Specular = 0.3, 0.0
     return shown

@@ -54,6 +54,13 @@ def facts(thing):
     return found
 
 
+def words(thing):
+    """Texts in the field data."""
+    fields = thing.GetFieldData()
+    arrays = [fields.GetAbstractArray(i) for i in range(fields.GetNumberOfArrays())]
+    return {array.GetName(): array.GetValue(0) for array in arrays if array.IsA("vtkStringArray") and array.GetNumberOfValues() == 1}
+
+
 def finite(thing):
     """The same with None, which JSON knows, for numbers that are not finite."""
     if isinstance(thing, dict):
@@ -247,7 +254,7 @@ class Drawing:
         found.UpdatePipeline(time)
         table, sieve = data_of(found, 1), data_of(found, 2)
         mass = column(table, "mass")
-        part = {"count": int(table.GetNumberOfRows()), "mass": float(mass.sum()), **facts(sieve)}
+        part = {"count": int(table.GetNumberOfRows()), "mass": float(mass.sum()), **facts(sieve), **words(sieve)}
         names = [n for n in ("fragment", "body", "elements", "mass", "volume", "diameter", "velocity", "spin", "elongation", "flatness",
                              "sphericity") if table.GetRowData().GetArray(n) is not None]
         part["largest"] = rows(table, names, np.argsort(-mass, kind="stable"))
@@ -280,7 +287,7 @@ class Drawing:
 
     def events(self):
         time = self.times[-1]
-        found = CrackEvents(registrationName="Crack Events", Input=self.run, MagnitudeOf="Energy", MomentAt="Time shown")
+        found = CrackEvents(registrationName="Crack Events", Input=self.run)
         found.UpdatePipeline(time)
         table, sizes = data_of(found, 1), data_of(found, 2)
         part = {"count": int(table.GetNumberOfRows()), **facts(table), **facts(sizes)}

@@ -17,6 +17,7 @@
 #include "base/quantity_text.hpp"
 #include "commands/contact_report.hpp"
 #include "commands/data_report.hpp"
+#include "commands/insitu_report.hpp"
 #include "commands/joint_report.hpp"
 #include "commands/refusals.hpp"
 #include "contact/search_params.hpp"
@@ -325,7 +326,8 @@ CheckReport full_report(const Subject& subject, const std::string& from) {
   report.step = step_report(input, model, subject.step());
   report.estimate = estimate_run(subject, report.step);
   report.text += report.step.text + run_time(model, report.step, report.estimate, input.stages.back().end) +
-                 frames_line(report.estimate.frames);
+                 frames_line(report.estimate.frames) +
+                 insitu_report(input, model.mesh, subject.begun(), report.estimate.steps);
   report.advice = advise(subject);
   return report;
 }

@@ -65,12 +65,19 @@ int replay_command(const ReplayCommand& asked, const Communicator& world) {
     world.agree([&] {
       if (result != 0) throw InputError(insitu_problems({}, text));
     });
+    return text;
   };
-  checked([&](char* words, std::size_t size) { return plugin->api().preflight(&config.get(), words, size); });
+  static_cast<void>(
+      checked([&](char* words, std::size_t size) { return plugin->api().preflight(&config.get(), words, size); }));
   const std::string records = std::filesystem::absolute(RunFolder{asked.run}.extracts()).string();
-  checked(
+  const std::string notices = checked(
       [&](char* words, std::size_t size) { return plugin->api().replay(&config.get(), records.c_str(), words, size); });
-  if (world.is_root()) print_lines("results in " + folder.string() + "\n");
+  if (!world.is_root()) return 0;
+  for_each_notice(notices, [](const std::string& line, bool warns) {
+    if (warns) return print_warning(line);
+    print_lines(line + "\n");
+  });
+  print_lines("results in " + folder.string() + "\n");
   return 0;
 }
 

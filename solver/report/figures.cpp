@@ -44,11 +44,13 @@ Row row_of(const json& object) {
   return row;
 }
 
-/// Numbers of a part are facts, lists of objects tables, objects curves.
+/// Numbers of a part are facts, strings texts, lists of objects tables, objects curves.
 void take_part(const std::string& name, const json& part, Figures& figures) {
   for (const auto& [key, value] : part.items()) {
     if (value.is_number()) {
       figures.facts[name][key] = value.get<double>();
+    } else if (value.is_string()) {
+      figures.texts[name][key] = value.get<std::string>();
     } else if (value.is_array()) {
       std::vector<Row>& table = figures.tables[name + "." + key];
       for (const json& row : value) {
@@ -84,6 +86,13 @@ double Figures::fact(const std::string& part, const std::string& name) const {
   if (facts_of_part == facts.end()) return kNoNumber;
   const auto found = facts_of_part->second.find(name);
   return found == facts_of_part->second.end() ? kNoNumber : found->second;
+}
+
+std::string Figures::text(const std::string& part, const std::string& name) const {
+  const auto texts_of_part = texts.find(part);
+  if (texts_of_part == texts.end()) return {};
+  const auto found = texts_of_part->second.find(name);
+  return found == texts_of_part->second.end() ? std::string() : found->second;
 }
 
 Figures read_figures(const std::filesystem::path& folder) {

@@ -31,12 +31,15 @@ struct Figures {
   std::vector<Picture> pictures;
   std::map<std::string, std::map<std::string, double>>
       facts;  ///< of "fragments", "cracks", "events", "contacts", "ranks"
+  std::map<std::string, std::map<std::string, std::string>> texts;  ///< of these
   std::map<std::string, std::vector<Row>>
       tables;                         ///< "fragments.largest", "events.largest", "contacts.walls", "ranks.rows"
   std::map<std::string, Row> curves;  ///< "fragments.sieve", "events.magnitudes"
 
   /// NaN when it is not known.
   [[nodiscard]] double fact(const std::string& part, const std::string& name) const;
+  /// Empty when there is none.
+  [[nodiscard]] std::string text(const std::string& part, const std::string& name) const;
 };
 
 /// Reads figures.json and the pictures it names. A folder without that file gives no figures.

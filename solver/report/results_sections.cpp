@@ -112,20 +112,45 @@ std::string fact_table(const std::string& caption, std::initializer_list<Fact> f
   return table.html();
 }
 
+constexpr std::pair<const char*, const char*> kFits[] = {{"rosin_rammler", "Rosin-Rammler"}, {"swebrec", "Swebrec"}};
+
 std::string sieve_chart(const Figures& figures) {
   const std::string name = "fragments.sieve";
   const std::vector<double> size = curve(figures, name, "size");
   if (size.size() < 2) return {};
   Chart chart{"Sieve curve", "size on the sieve", "m", "share of the mass that passes", "", true, false, false, {}};
   chart.series.push_back({"fragments", size, curve(figures, name, "passing"), true});
-  for (const auto& [column, words] : {std::pair{"rosin_rammler", "Rosin-Rammler"}, {"swebrec", "Swebrec"}}) {
+  for (const auto& [column, words] : kFits) {
     const std::vector<double> values = curve(figures, name, column);
-    if (values.size() == size.size()) chart.series.push_back({words, size, values});
+    if (values.size() == size.size() && std::isfinite(values.front())) chart.series.push_back({words, size, values});
   }
   return figure_unless_empty(
       svg_of(chart),
       "Share of the mass in fragments that pass a sieve (middle diameter of the ellipsoid of the "
-      "same moments), with two fits. Parts that no crack bounds are left out.");
+      "same moments), with fits by least squares of the share, weighted with the mass. Parts that no crack bounds "
+      "are left out.");
+}
+
+/// Why there is no curve, of each fit that is left out.
+std::string fits_left_out(const Figures& figures) {
+  std::string html;
+  for (const auto& [name, words] : kFits) {
+    const std::string reason = figures.text("fragments", std::string(name) + "_left_out");
+    if (!reason.empty()) html += paragraph(fmt::format("The {} fit is left out: {}.", words, reason));
+  }
+  return html;
+}
+
+/// The settings of Crack Events that have found them.
+std::string settings_of_events(const Figures& figures) {
+  const auto fact = [&](const char* name) { return figures.fact("events", name); };
+  if (!std::isfinite(fact("linking_distance"))) return {};
+  return paragraph(
+      fmt::format("Joints of one event are linked by at most {} and {}, with their places {}. The b-value is of the "
+                  "{} magnitude. These are the settings with which the filter Crack Events starts.",
+                  quantity(fact("linking_distance"), "m"), quantity(fact("linking_time"), "s"),
+                  fact("at_time_shown") > 0 ? "at the time shown" : "at the time of failure",
+                  fact("magnitude_of_energy") > 0 ? "energy" : "moment"));
 }
 
 }  // namespace
@@ -179,14 +204,22 @@ std::string fragments(const RunRecord& run, const Figures& figures) {
       figure_unless_empty(time_chart(run.history, "Fragments over time", "fragments", "", {{"fragments", "fragments"}}),
                           "Parts that hang together through joints that have not failed.");
   html = pair(html + sieve_chart(figures));
+  const auto fit = [&](const std::string& name, const char* measure) {
+    return figures.text("fragments", name + "_left_out").empty() ? figures.fact("fragments", name + "_" + measure)
+                                                                 : std::nan("");
+  };
   std::string found = fact_table("At the last frame",
                                  {{"d50: half of the mass is in smaller ones", figures.fact("fragments", "d50"), "m"},
                                   {"d80: four fifths of it are", figures.fact("fragments", "d80"), "m"},
                                   {"Rosin-Rammler: size", figures.fact("fragments", "rosin_rammler_size"), "m"},
                                   {"Rosin-Rammler: exponent", figures.fact("fragments", "rosin_rammler_exponent"), ""},
+                                  {"Rosin-Rammler: R2", fit("rosin_rammler", "r2"), ""},
+                                  {"Rosin-Rammler: largest deviation", fit("rosin_rammler", "deviation"), ""},
                                   {"Swebrec: median", figures.fact("fragments", "swebrec_median"), "m"},
                                   {"Swebrec: largest", figures.fact("fragments", "swebrec_largest"), "m"},
                                   {"Swebrec: exponent", figures.fact("fragments", "swebrec_exponent"), ""},
+                                  {"Swebrec: R2", fit("swebrec", "r2"), ""},
+                                  {"Swebrec: largest deviation", fit("swebrec", "deviation"), ""},
                                   {"mass of all parts", figures.fact("fragments", "mass"), "kg"}});
   Table table{"The heaviest fragments at the last frame",
               {"fragment", "body", "elements", "mass", "volume", "diameter", "speed", "spin", "sphericity"},
@@ -199,7 +232,7 @@ std::string fragments(const RunRecord& run, const Figures& figures) {
          Cell::number_of(length_of(row, "velocity"), "m/s"), Cell::number_of(length_of(row, "spin"), "rad/s"),
          Cell::number_of(first_of(row, "sphericity"), "")});
   found += table.html();
-  html += tables(found);
+  html += fits_left_out(figures) + tables(found);
   if (!table.rows.empty())
     html += paragraph(
         "A fragment is called by the smallest id of its elements; its diameter is that of a sphere of the "
@@ -240,7 +273,7 @@ std::string events(const Figures& figures) {
                           Cell::number_of(first_of(row, "duration"), "s"), Cell::count(first_of(row, "joints")),
                           Cell::number_of(first_of(row, "area"), "m2"), Cell::number_of(first_of(row, "energy"), "J"),
                           Cell::number_of(first_of(row, "energy_magnitude"), "")});
-  return html + pair(drawn + facts) + table.html();
+  return html + settings_of_events(figures) + pair(drawn + facts) + table.html();
 }
 
 std::string contacts(const RunRecord& run, const Figures& figures) {

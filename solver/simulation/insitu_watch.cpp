@@ -40,6 +40,7 @@ void InSituWatch::add_signals(StepSignals& signals) {
 }
 
 void InSituWatch::take_row(const HistoryRow& row) {
+  row_step_ = row.step;
   if (partition_.communicator().is_root()) last_row_ = history_values(row);
 }
 
@@ -56,10 +57,31 @@ std::vector<Command> InSituWatch::look(Observer& observer, bool all) {
   partition_.communicator().set_phase("in-situ pipelines");
   const auto ordered =
       static_cast<std::uint32_t>(domain.state.signals.received.orders);  // the lower half is for pipelines
-  const InSitu::Plan plan = insitu_.plan(now, ordered, all);
+  InSitu::Plan plan = insitu_.plan(now, ordered, all);
+  if (plan.rows != 0) {
+    if (!late_) late_ = Late{{0, std::uint32_t{1} << BRECCIA_HISTORY, 0}, observer.picture(0, parts_of(0))};
+    late_->plan.pipelines |= plan.rows;
+    plan.pipelines &= ~plan.rows;
+  }
   if (!plan) return {};
   insitu_.execute(plan, observer.picture(0, parts_of(plan.channels)), columns_, last_row_);
   return asked_by_scripts();
+}
+
+void InSituWatch::execute_late() {
+  if (!late_) return;
+  const auto lap = partition_.domain().timer.measure(Phase::insitu);
+  partition_.communicator().set_phase("in-situ pipelines");
+  const Late late = std::move(*late_);
+  late_.reset();
+  given_step_ = row_step_;
+  insitu_.execute_late(late.plan, late.frame, columns_, last_row_);
+}
+
+/// The last state has no step that finds its row: pipelines get the last one, unless they have it.
+std::vector<PipelineReport> InSituWatch::finish() {
+  if (row_step_ != given_step_) execute_late();
+  return insitu_.finish();
 }
 
 std::vector<Command> InSituWatch::asked_by_scripts() const {

@@ -191,10 +191,13 @@ class Runner {
   void advance(bool end, bool last) {
     const double time = clock().time;
     const bool line = output_.line_due() || end;
-    step(partition_.domain(), {line || last, signals()});
+    const bool row = insitu_ && insitu_->waits_for_row();
+    step(partition_.domain(), {line || last || row, signals()});
     const bool sampled = line || last || partition_.state().signals.received.stop;
     sampled_without_line_ = sampled ? std::optional(time) : std::nullopt;
     const std::vector<double> numbers = line ? take_line(time) : std::vector<double>{};
+    if (row && !line) output_.take_row(time, *insitu_);
+    if (row) insitu_->execute_late();
     if (line || last) check_energies(time);
     if (line) act_on(conditions_.take(numbers, stage_));
     output_.tell_status(paused_);

@@ -110,6 +110,13 @@ std::vector<double> RunOutput::take_line(double time, InSituWatch* insitu) {
   return numbers;
 }
 
+void RunOutput::take_row(double time, InSituWatch& insitu) {
+  const auto lap = partition_.domain().timer.measure(Phase::output);
+  HistoryRow row = observer_.row(time);
+  row.insitu_share = insitu.share_of_time();
+  insitu.take_row(row);
+}
+
 void RunOutput::check_energies(double time) {
   const EnergySample& sample = partition_.domain().sample;
   const EnergyFault fault = energy_fault(sample.budget, input_.time.residual_limit, input_.time.energy_gain_limit);

@@ -44,6 +44,8 @@ class RunOutput {
   /// A line of the history. @param time  s, of the step that was sampled;  @param insitu  null: none
   /// @return  its numbers, in the order of the columns
   std::vector<double> take_line(double time, InSituWatch* insitu);
+  /// A row of the history for the pipelines alone. Collective.
+  void take_row(double time, InSituWatch& insitu);
   /// Throws SimulationError if the residual of the step that was sampled, or the energy that it holds beyond what was
   /// put in, is above its limit; otherwise all until then is sound. @param time  s, of that step
   void check_energies(double time);

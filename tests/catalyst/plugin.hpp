@@ -68,6 +68,11 @@ class Adaptor {
   }
   /// Executes and keeps text and requests.
   std::int64_t execute(std::uint32_t pipelines, const BrecciaInstant& instant);
+  [[nodiscard]] std::string notices() const {
+    Text lines;
+    plugin().notices(adaptor_, lines.text, sizeof lines.text);
+    return lines.string();
+  }
   [[nodiscard]] std::int64_t bytes(int pipeline) const { return plugin().bytes_written(adaptor_, pipeline); }
 
   std::string text;

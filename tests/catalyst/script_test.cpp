@@ -120,6 +120,20 @@ TEST(Scripts, ThatFailAreToldInOneLineEachWithTheirPlaceOnAllRanksAndTheOthersGo
   EXPECT_TRUE(std::filesystem::exists(folder / "surface/surface_000000008.pvtp"));
 }
 
+/// The solver's memory is not there any more when the adaptor is closed.
+TEST(Scripts, ThatReadAtTheirEndFindNoCells) {
+  const auto folder = fresh_folder("ends");
+  SyntheticRun run(3, world().rank, world().size);
+  {
+    OpenScripts scripts(folder, {"reads_at_its_end.py"});
+    ASSERT_TRUE(scripts->is_open());
+    for (std::int64_t number = 1; number <= 2; ++number) EXPECT_EQ(step(*scripts, run, number, 1), 0U) << scripts->text;
+    run.take_away();
+  }
+  barrier();
+  EXPECT_EQ(content(folder / "reads_at_its_end/cells.txt"), "0");
+}
+
 TEST(Scripts, InAReplayGetEachRecordedCellOnceWhateverTheNumberOfRanks) {
   const auto records = fresh_folder("records");
   SyntheticRun run(3, world().rank, world().size);

@@ -27,6 +27,7 @@ struct Bridge {
   void (*done)(const char* error);
   int (*request)(const char* name, double value);
   void (*spare)(void* display);
+  void (*note)(const char* script, const char* lines);
 };
 
 TEST(Catalyst2Scripts, OfParaViewRunOneAtATimeAndSayWhatTheyFailOf) {
@@ -59,11 +60,14 @@ TEST(Catalyst2Scripts, OfParaViewRunOneAtATimeAndSayWhatTheyFailOf) {
     standin.on_execute = [&] {
       turn = bridge.turn();
       bridge.request("stop", 1);
+      if (world().rank == 0) bridge.note(kScript.c_str(), "one\nwarning: two\n");  // what others have is taken out
       bridge.done("");
     };
     EXPECT_EQ(adaptor.execute(1, run.at(0, kAll)), 0) << adaptor.text;
     EXPECT_EQ(turn, kScript);
     EXPECT_EQ(adaptor.requests.stop, 1);
+    EXPECT_EQ(adaptor.notices(), "pipeline " + kScript + ": one\nwarning: pipeline " + kScript + ": two\n");
+    EXPECT_EQ(adaptor.notices(), "") << "each is reported once";
     EXPECT_EQ(leaf_of(standin.executed.back(), "catalyst/state/parameters/0")->words, "pipeline=" + kScript);
 
     // From then on its own, and no cell of the others.

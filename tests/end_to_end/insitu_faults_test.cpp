@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <ostream>
+#include <tuple>
 
 #include "end_to_end/program.hpp"
 
@@ -74,6 +76,82 @@ TEST_P(InSituFaults, AScriptThatAsksForTheEndGetsTheStepThatFollowsWithItsEnergi
   EXPECT_TRUE(summary["status"].get<std::string>().starts_with("stopped")) << summary["status"];
   const double first = history_column(run.folder() / "history.csv", "kinetic [J]").front();
   EXPECT_NE(summary["energy"]["kinetic"].get<double>(), first);
+}
+
+/// A script of tests/catalyst/scripts and why it fails, as the run reports it.
+struct Failing {
+  const char* script;
+  const char* reason;
+  friend std::ostream& operator<<(std::ostream& out, const Failing& failing) { return out << failing.script; }
+};
+
+constexpr Failing kFailing[] = {
+    {"raises_at_import.py", "ValueError: no way to go on (raises_at_import.py:5)"},
+    {"raises_at_import_on_one_rank.py", "ValueError: cannot be read here (raises_at_import_on_one_rank.py:10)"},
+    {"no_options.py", "AttributeError: 'NoneType' object has no attribute"},
+    {"raises_in_initialize.py", "ValueError: cannot begin (raises_in_initialize.py:12)"},
+    {"raises_in_initialize_on_one_rank.py", "ValueError: cannot begin here (raises_in_initialize_on_one_rank.py:15)"},
+    {"exits_in_initialize.py", "SystemExit: called sys.exit (exits_in_initialize.py:12)"},
+    {"wrong_signature.py", "TypeError: catalyst_initialize() missing 1 required positional argument"},
+    {"raises_at_request.py", "ValueError: cannot request (raises_at_request.py:10)"},
+    {"raises_at_request_on_one_rank.py", "ValueError: cannot request here (raises_at_request_on_one_rank.py:13)"},
+    {"raises_on_one_rank.py", "RuntimeError: only here (raises_on_one_rank.py:16)"},
+    {"raises_without_text.py", "Mute: an error without a text (raises_without_text.py:15)"},
+    {"raises_in_finalize.py", "at its end: ValueError: cannot end (raises_in_finalize.py:14)"},
+    {"raises_in_finalize_on_one_rank.py", "at its end: ValueError: cannot end here"},
+};
+
+class FailingScripts : public testing::TestWithParam<std::tuple<Failing, int>> {};
+
+TEST_P(FailingScripts, EndTheRunAsWithoutThemAndTheReasonIsReportedOnce) {
+  const auto& [failing, ranks] = GetParam();
+  static const std::string plain = FaultyRun(1, "").hash();
+  const FaultyRun run(ranks, script(failing.script));
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_EQ(run.hash(), plain);
+  const std::string reason = std::string(failing.script) + ": " + failing.reason;
+  EXPECT_TRUE(run.reports(reason)) << run.outcome.err;
+  EXPECT_EQ(run.outcome.err.find(reason), run.outcome.err.rfind(reason)) << run.outcome.err;
+  EXPECT_LE(run.lines(), 2) << run.outcome.err;  // and that it is switched off
+  EXPECT_FALSE(run.reports("Traceback")) << "that is in the log";
+}
+
+INSTANTIATE_TEST_SUITE_P(OfRanks, FailingScripts, testing::Combine(testing::ValuesIn(kFailing), testing::Values(1, 2)),
+                         [](const auto& info) {
+                           const std::string name = std::get<0>(info.param).script;
+                           return name.substr(0, name.find('.')) + "_" + std::to_string(std::get<1>(info.param));
+                         });
+
+std::ptrdiff_t times(const std::string& text, const std::string& part) {
+  std::ptrdiff_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST_P(InSituFaults, WhatAScriptWritesAndWarnsOfIsInItsLogAndReportedOnceAndIsNoFailure) {
+  const FaultyRun run(GetParam(), script("writes_and_warns.py"));
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  const json pipeline = json::parse(read_text(run.folder() / "summary.json"))["insitu"]["pipelines"][0];
+  EXPECT_EQ(pipeline["failed"], 0) << pipeline;
+  const std::string log = read_text(run.folder() / "extracts/writes_and_warns/script.log");
+  const std::string events = read_text(run.folder() / "status.jsonl");
+  const auto of_script = [](const std::string& text) { return "writes_and_warns.py: " + text + "\""; };
+  for (const std::string line : {"read", "begun", "cells of 0: some", "ended", "line 4"}) {
+    EXPECT_EQ(times(log, line + "\n") > 0, true) << line << log;
+    EXPECT_EQ(times(events, of_script(line)), 1) << line << events;
+  }
+  EXPECT_EQ(times(log, "line 11\n"), times(log, "some\n")) << "the log has all";
+  EXPECT_EQ(times(events, of_script("line 11")), 0) << "only some lines are reported at a time";
+  EXPECT_EQ(times(events, "more lines in " + (run.folder() / "extracts/writes_and_warns/script.log").string()), 1);
+  const std::string warnings[] = {"on stderr", "UserWarning: by Python (writes_and_warns.py:25)",
+                                  "WARNING:root:by logging", "by ParaView", "by VTK"};
+  for (const std::string& warning : warnings) {
+    EXPECT_GT(times(log, warning + "\n"), 0) << warning << log;
+    EXPECT_EQ(times(run.outcome.err, warning + "\n"), 1) << warning << run.outcome.err;
+  }
+  EXPECT_EQ(run.lines(), std::size(warnings)) << run.outcome.err;
+  EXPECT_EQ(times(events, of_script("rank 1: by the second rank")), GetParam() - 1);
+  EXPECT_EQ(fs::exists(run.folder() / "extracts/writes_and_warns/script_rank_1.log"), GetParam() > 1);
 }
 
 TEST_P(InSituFaults, AnAbortWithinParaviewLeavesALineThatNamesThePipeline) {

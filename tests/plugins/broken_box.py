@@ -95,6 +95,12 @@ def fact(data, name):
     return data.GetFieldData().GetArray(name).GetValue(0)
 
 
+def words_of_fact(data, name):
+    """A text in the field data; "" when there is none."""
+    array = data.GetFieldData().GetAbstractArray(name)
+    return "" if array is None else array.GetValue(0)
+
+
 class Box:
     """A box of cubes cut into tetrahedra (six a cube), with the joints between them."""
 

@@ -130,21 +130,26 @@ def box_has_its_ellipsoid():
     b.expect(np.isclose(b.column(table, "sphericity")[0], ball, rtol=ROUND_OFF), "sphericity")
 
 
-def sieve(size_at):
-    """Single tetrahedra of one mass whose diameters follow a distribution: size_at(share that passes)."""
-    n = 50
+def sieve_of(sizes, masses):
+    """The curve of single tetrahedra with these diameters and masses."""
+    n = len(sizes)
     box = b.Box((n, 1, 1))
     box.points, box.id = box.points[::6].copy(), np.arange(n)
-    box.count, box.mass, box.velocity = n, np.full(n, 2.0), np.zeros((n, 3))
+    box.count, box.mass, box.velocity = n, np.asarray(masses, float), np.zeros((n, 3))
     box.neighbour = np.full((n, 4), -1)
-    wanted = size_at(np.minimum(np.arange(1, n + 1) / n, 1 - 1e-9))
     edge = box.points - box.points[:, :1]
     now = np.cbrt(6 / np.pi * abs(np.linalg.det(edge[:, 1:])) / 6)
-    box.points = edge * (wanted / now)[:, None, None]  # all at the origin: some are very small
+    box.points = edge * (np.asarray(sizes) / now)[:, None, None]  # all at the origin: some are very small
     data = b.blocks(elements=box.elements(slice(None) if RANK == 0 else slice(0)), joints=box.joints([]))
     found = simple.Fragments(Input=b.producer(data), SieveMeasure="Sphere of the same volume", OnlyBroken=0)
     found.UpdatePipeline()
     return b.output(found, 2)
+
+
+def sieve(size_at):
+    """Single tetrahedra of one mass whose diameters follow a distribution: size_at(share that passes)."""
+    n = 50
+    return sieve_of(size_at(np.minimum(np.arange(1, n + 1) / n, 1 - 1e-9)), np.full(n, 2.0))
 
 
 def sieve_curves_give_back_their_parameters():
@@ -161,6 +166,56 @@ def sieve_curves_give_back_their_parameters():
     b.expect(np.isclose(b.fact(other, "swebrec_median"), median, rtol=1e-9), f"x_50 {b.fact(other, 'swebrec_median')}")
     b.expect(np.isclose(b.fact(other, "swebrec_largest"), largest, rtol=1e-9), "x_max")
     b.expect(np.isclose(b.fact(other, "swebrec_exponent"), b_swebrec, rtol=1e-9), f"b {b.fact(other, 'swebrec_exponent')}")
+
+
+def measures(curve, name):
+    """R2 and largest deviation of a fit, from the columns."""
+    passing, fit = b.column(curve, "passing"), b.column(curve, name)
+    mass = np.diff(passing, prepend=0)
+    return 1 - np.sum(mass * (fit - passing) ** 2) / np.sum(mass * (passing - np.sum(mass * passing)) ** 2), abs(fit - passing).max()
+
+
+def sieve_curves_have_fits_of_the_mass_or_the_reason_why_not():
+    rng = np.random.default_rng(5)
+    share = (np.arange(1, 81) - 0.5) / 80
+    noise = np.exp(0.03 * rng.normal(size=80))
+    splinters = np.concatenate([1e-3 * np.exp(0.2 * rng.normal(size=100)), 5e-3 * np.exp(0.5 * rng.normal(size=12)),
+                                [0.02, 0.025, 0.03, 0.04]])
+    curves = {
+        "Rosin-Rammler": sieve_of(0.02 * (-np.log1p(-share)) ** (1 / 1.4) * noise, np.ones(80)),
+        "Swebrec": sieve_of(0.05 / np.exp(np.log(5) * (1 / share - 1) ** (1 / 2.2)) * noise, np.ones(80)),
+        "splinters": sieve_of(splinters, splinters ** 3),
+        "bimodal": sieve_of(np.concatenate([1e-3 * np.exp(0.3 * rng.normal(size=60)), 0.02 * np.exp(0.3 * rng.normal(size=20))]),
+                            np.repeat([1.0, 3.0], [60, 20])),
+        "few": sieve_of([0.01, 0.02, 0.03, 0.04], [1, 1, 2, 3]),
+    }
+    if RANK != 0:
+        return
+    # R2 and deviation that each fit reaches at least (the noise of the sizes, the steps of few heavy fragments); None: it is left out
+    expected = {"Rosin-Rammler": ((0.999, 0.03), (0.99, 0.06)), "Swebrec": ((0.98, 0.08), (0.999, 0.03)),
+                "splinters": ((0.97, 0.12), (0.998, 0.04)), "bimodal": (None, None), "few": (None, None)}
+    for kind, curve in curves.items():
+        for (name, size), wanted in zip((("rosin_rammler", "size"), ("swebrec", "median")), expected[kind]):
+            reason = b.words_of_fact(curve, f"{name}_left_out")
+            if wanted is None:
+                b.expect("4 different sizes" in reason if kind == "few" else "its best fit deviates by 0." in reason, f"{kind}, {name}: {reason}")
+                b.expect(np.all(np.isnan(b.column(curve, name))) and np.isnan(b.fact(curve, f"{name}_{size}")), f"{kind}, {name} is left out")
+                continue
+            r2, deviation = measures(curve, name)
+            print(f"{kind}: {name}: R2 {r2:.4f}, largest deviation {deviation:.3f}")
+            b.expect(not reason and r2 >= wanted[0] and deviation <= wanted[1], f"{kind}, {name}: R2 {r2}, deviation {deviation} {reason}")
+            b.expect(np.isclose(b.fact(curve, f"{name}_r2"), r2, rtol=1e-9), f"R2 {b.fact(curve, f'{name}_r2')}")
+            b.expect(np.isclose(b.fact(curve, f"{name}_deviation"), deviation, rtol=1e-9), "deviation")
+    # No other parameters near these have less: a minimum of the squares.
+    curve = curves["splinters"]
+    x, passing, mass = b.column(curve, "size"), b.column(curve, "passing"), np.diff(b.column(curve, "passing"), prepend=0)
+    best = [b.fact(curve, "rosin_rammler_size"), b.fact(curve, "rosin_rammler_exponent")]
+
+    def squares(size, exponent):
+        return np.sum(mass * (-np.expm1(-(x / size) ** exponent) - passing) ** 2)
+
+    for change in ((1.001, 1), (0.999, 1), (1, 1.001), (1, 0.999)):
+        b.expect(squares(best[0] * change[0], best[1] * change[1]) > squares(*best), f"there is a better fit by {change}")
 
 
 def followed_elements_show_their_fragment_alone():
@@ -194,5 +249,6 @@ else:
     rigid_motion_has_its_spin()
     box_has_its_ellipsoid()
     sieve_curves_give_back_their_parameters()
+    sieve_curves_have_fits_of_the_mass_or_the_reason_why_not()
     followed_elements_show_their_fragment_alone()
 b.finish()

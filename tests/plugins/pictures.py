@@ -30,7 +30,8 @@ def room(time):
     return view
 
 
-def coloured(shown, view, array, title, association="CELLS", preset="Viridis (matplotlib)"):
+def coloured(shown, view, array, title, association="CELLS", preset="Viridis (matplotlib)", height=(0.2, 0.6)):
+    """height: lower end and length of the key, of the view's"""
     ColorBy(shown, (association, array))
     shown.RescaleTransferFunctionToDataRange(False, True)
     table = GetColorTransferFunction(array)
@@ -38,6 +39,7 @@ def coloured(shown, view, array, title, association="CELLS", preset="Viridis (ma
     bar = GetScalarBar(table, view)
     bar.Title, bar.ComponentTitle = title, ""
     bar.TitleColor = bar.LabelColor = GREY
+    bar.WindowLocation, bar.Position, bar.ScalarBarLength = "Any Location", [0.85, height[0]], height[1]  # its title runs beside it, whole
     shown.SetScalarBarVisibility(view, True)
     shown.Ambient = 0.3
 
@@ -129,6 +131,6 @@ view = room(time)
 boxes = Show(ranks, view)
 boxes.Opacity = 0.4
 boxes.Representation = "Surface With Edges"
-coloured(boxes, view, "load", "cost over the mean")
-coloured(Show(ExtractBlock(Input=on_ranks, Selectors=["/Root/elements"]), view), view, "rank", "rank")
+coloured(boxes, view, "load", "cost over the mean", height=(0.1, 0.35))
+coloured(Show(ExtractBlock(Input=on_ranks, Selectors=["/Root/elements"]), view), view, "rank", "rank", height=(0.55, 0.35))
 saved(view, "rank_view")

@@ -110,21 +110,35 @@ if RANK == 0:
     b.expect(len(set(b.words(table, "body_name"))) == len(called), f"fragments of {set(b.words(table, 'body_name'))}")
 
 
-def straight(x, y):
-    slope, intercept = np.polyfit(x, y, 1)
-    return slope, np.exp(-intercept / slope)
+def best_of(squares, size, exponent):
+    """Least squares once more, by a search of ever finer steps about the filter's result."""
+    at, least, step = np.log([size, exponent]), squares(size, exponent), 0.1
+    while step > 1e-9:
+        tried = [at + step * np.array(way) for way in ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1))]
+        values = [squares(*np.exp(other)) for other in tried]
+        if min(values) < least:
+            at, least = tried[int(np.argmin(values))], min(values)
+        else:
+            step /= 2
+    return np.exp(at)
 
 
 sieve = b.output(fragments, 2)
-if RANK == 0 and sieve.GetNumberOfRows() > 2:  # the fits once more, by numpy
-    x, p = (b.column(sieve, name)[:-1] for name in ("size", "passing"))
-    largest = b.column(sieve, "size")[-1]
-    exponent, size = straight(np.log(x), np.log(-np.log1p(-p)))
-    b.expect(np.isclose(b.fact(sieve, "rosin_rammler_exponent"), exponent, rtol=1e-6), f"Rosin-Rammler exponent {exponent}")
-    b.expect(np.isclose(b.fact(sieve, "rosin_rammler_size"), size, rtol=1e-6), f"Rosin-Rammler size {size}")
-    exponent, median = straight(np.log(np.log(largest / x)), np.log(1 / p - 1))
-    b.expect(np.isclose(b.fact(sieve, "swebrec_exponent"), exponent, rtol=1e-6), f"Swebrec exponent {exponent}")
-    b.expect(np.isclose(b.fact(sieve, "swebrec_median"), largest * np.exp(-median), rtol=1e-6), f"Swebrec median {largest * np.exp(-median)}")
+if RANK == 0 and sieve.GetNumberOfRows() > 2:
+    x, p = (b.column(sieve, name) for name in ("size", "passing"))
+    largest, mass = x[-1], np.diff(p, prepend=0)
+    fits = {"rosin_rammler": ("size", lambda size, n: -np.expm1(-(x / size) ** n)),
+            "swebrec": ("median", lambda median, n: 1 / (1 + (np.log(largest / x) / np.log(largest / median)) ** n))}
+    for name, (size, curve) in fits.items():
+        if reason := b.words_of_fact(sieve, f"{name}_left_out"):
+            print(f"{name} is left out: {reason}")
+            continue
+        found = [b.fact(sieve, f"{name}_{what}") for what in (size, "exponent")]
+        best = best_of(lambda *parameters: np.sum(mass * (curve(*parameters) - p) ** 2), *found)
+        b.expect(np.allclose(found, best, rtol=1e-5), f"{name}: {found}, the best are {best}")
+        miss = abs(curve(*found) - p).max()
+        print(f"{name}: R2 {b.fact(sieve, f'{name}_r2'):.4f}, largest deviation {miss:.3f} of {len(x)} sizes")
+        b.expect(np.isclose(b.fact(sieve, f"{name}_deviation"), miss, rtol=1e-9), f"deviation of {name}: {miss}")
     half = np.interp(0.5, b.column(sieve, "passing"), b.column(sieve, "size"))
     b.expect(np.isclose(b.fact(sieve, "d50"), half, rtol=1e-9), f"d50 {half}")
 if RANK == 0:

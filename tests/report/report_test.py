@@ -301,6 +301,34 @@ def paraview():
     expect(sum(values[0] for values in ranks.values()) == summary["elements"], f"elements of ranks {ranks}")
     expect(sorted(shown.values("Materials")["young"]) == [7.5e10, 7.5e10, 7.5e11], "Young's moduli of the case")
     expect(shown.values("Joints")["energy_mode_1"] == [10], "energy of its joints")
+    events_of_the_filter(shown)
+
+
+def events_of_the_filter(shown):
+    """Whoever opens the run in ParaView and applies Crack Events, as it starts, finds the same."""
+    plugin = os.path.join(os.path.dirname(os.path.dirname(breccia)), "plugins/lib/breccia/paraview/Breccia/Breccia.so")
+    script = f"""
+import json
+from paraview.simple import *
+LoadPlugin({plugin!r}, remote=False, ns=globals())
+run = BrecciaReader(FileName={run + "/status.jsonl"!r})
+found = CrackEvents(Input=run)
+found.UpdatePipeline(run.TimestepValues[-1])
+tables = [found.GetClientSideObject().GetOutputDataObject(port) for port in (1, 2)]
+facts = {{t.GetFieldData().GetArrayName(i): t.GetFieldData().GetArray(i).GetValue(0) for t in tables for i in range(t.GetFieldData().GetNumberOfArrays())}}
+json.dump({{"events": tables[0].GetNumberOfRows(), **facts}}, open({scratch + "/events.json"!r}, "w"))
+"""
+    with open(f"{scratch}/events.py", "w", encoding="utf-8") as file:
+        file.write(script)
+    subprocess.run(["pvpython", f"{scratch}/events.py"], check=True, capture_output=True)
+    facts = json.load(open(f"{scratch}/events.json"))
+    known = shown.values("At the last frame")
+    expect(facts["events"] > 1 and known["events"] == [facts["events"]], f"events {known['events']}, of the filter {facts['events']}")
+    for words, name in (("b-value", "b_value"), ("magnitude of completeness", "completeness"), ("energy of all events", "energy")):
+        expect(known[words] == [facts[name]], f"{words} {known[words]}, of the filter {facts[name]}")
+    distance = 1e3 * facts["linking_distance"]
+    expect(re.search(r"linked by at most ([\d.]+)\s*mm", shown.source) and
+           abs(float(re.search(r"linked by at most ([\d.]+)\s*mm", shown.source)[1]) - distance) < 0.01 * distance, "the distance is printed")
 
 
 def one_frame():

@@ -175,6 +175,10 @@ void vtkBrecciaCrackEvents::Make(vtkDataObject* input, vtkDataObject* given, vtk
   breccia::AddFact(table, "energy", energy);
   breccia::AddFact(table, "energy_of_damage", damage_energy);
   breccia::AddFact(table, "fracture_energy", energy + damage_energy);
+  breccia::AddFact(table, "linking_distance", distance);
+  breccia::AddFact(table, "linking_time", duration);
+  breccia::AddFact(table, "at_time_shown", this->MomentAt == AT_TIME_SHOWN ? 1 : 0);
+  breccia::AddFact(table, "magnitude_of_energy", this->MagnitudeOf == OF_ENERGY ? 1 : 0);
   FillMagnitudes(magnitudes, this->Completeness, vtkTable::GetData(outputs, 2));
 }
 

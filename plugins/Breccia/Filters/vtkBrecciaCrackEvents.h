@@ -61,7 +61,7 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaCrackEvents : public vtkBrecciaFilter {
   ///@}
   enum Magnitudes { OF_MOMENT = 0, OF_ENERGY = 1 };
   ///@{
-  /// Which magnitude the b-value is of.
+  /// Which magnitude the b-value is of. That of the energy needs no property of the material.
   vtkSetClampMacro(MagnitudeOf, int, OF_MOMENT, OF_ENERGY);
   vtkGetMacro(MagnitudeOf, int);
   ///@}
@@ -82,7 +82,7 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaCrackEvents : public vtkBrecciaFilter {
   double WaveSpeed = 3000;
   double YoungsModulus = 30e9;
   double PoissonsRatio = 0.2;
-  int MagnitudeOf = OF_MOMENT;
+  int MagnitudeOf = OF_ENERGY;
   double Completeness = 100;
 
  private:

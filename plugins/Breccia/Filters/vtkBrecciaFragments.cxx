@@ -15,6 +15,7 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnstructuredGrid.h"
@@ -82,6 +83,21 @@ void FillTable(const std::vector<Fragment>& fragments, const std::map<vtkTypeInt
   number("sphericity", [](const Fragment& f) { return f.Sphericity(); });
 }
 
+void AddFit(vtkTable* table, const std::string& name, const char* size, const breccia::SizeFit& fit) {
+  const auto fact = [&](const char* what, double value) {
+    breccia::AddFact(table, (name + "_" + what).c_str(), value);
+  };
+  fact(size, fit.size);
+  fact("exponent", fit.exponent);
+  fact("r2", fit.r2);
+  fact("deviation", fit.deviation);
+  if (fit) return;
+  vtkNew<vtkStringArray> reason;
+  reason->SetName((name + "_left_out").c_str());
+  reason->InsertNextValue(fit.left_out);
+  table->GetFieldData()->AddArray(reason);
+}
+
 void FillSieve(const breccia::Sieve& sieve, vtkTable* table) {
   std::vector<double> rosin_rammler, swebrec;
   for (const double x : sieve.size) {
@@ -94,11 +110,9 @@ void FillSieve(const breccia::Sieve& sieve, vtkTable* table) {
   breccia::AddColumn(table, "swebrec", swebrec);
   breccia::AddFact(table, "d50", sieve.d50);
   breccia::AddFact(table, "d80", sieve.d80);
-  breccia::AddFact(table, "rosin_rammler_size", sieve.rosin_rammler_size);
-  breccia::AddFact(table, "rosin_rammler_exponent", sieve.rosin_rammler_exponent);
-  breccia::AddFact(table, "swebrec_median", sieve.swebrec_median);
-  breccia::AddFact(table, "swebrec_largest", sieve.swebrec_largest);
-  breccia::AddFact(table, "swebrec_exponent", sieve.swebrec_exponent);
+  AddFit(table, "rosin_rammler", "size", sieve.rosin_rammler);
+  AddFit(table, "swebrec", "median", sieve.swebrec);
+  breccia::AddFact(table, "swebrec_largest", sieve.largest);
 }
 
 /// The elements with what is known of their fragments.

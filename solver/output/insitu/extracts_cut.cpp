@@ -73,6 +73,12 @@ bool is_table(const TreeEntry& entry) {
          (entry.path.extension() == ".csv" && entry.path.parent_path().filename() == "probes");
 }
 
+/// What a script has written to stdout and stderr (catalyst/python/breccia_output.py).
+bool is_log(const std::string& name) {
+  static const std::regex pattern(R"(script(_rank_\d+)?\.log)");
+  return std::regex_match(name, pattern);
+}
+
 /// A file that loses no line is not touched.
 void cut_lines(const TreeEntry& entry, std::int64_t step) {
   if (!is_list(entry) && !is_table(entry)) return;
@@ -118,8 +124,9 @@ void remove_extracts(const fs::path& extracts, const fs::path& index) {
   std::vector<fs::path> folders{extracts};
   walk_tree(folder.descriptor, extracts, [&](const TreeEntry& entry) {
     const bool is_extract = entry.kind != EntryKind::other && steps.contains(step_of(entry.name).value_or(-1));
-    const bool lists_extracts = listed && entry.kind == EntryKind::file && (is_list(entry) || is_table(entry));
-    if (is_extract || lists_extracts)
+    const bool is_whole =
+        listed && entry.kind == EntryKind::file && (is_list(entry) || is_table(entry) || is_log(entry.name));
+    if (is_extract || is_whole)
       remove_entry(entry);
     else if (entry.kind == EntryKind::folder)
       folders.push_back(entry.path);

@@ -19,7 +19,8 @@ inline constexpr const char* kExtractsHeader = "step,time [s]";
 void cut_extracts_back(const std::filesystem::path& extracts, const std::filesystem::path& index, std::int64_t step);
 
 /// Takes back all that pipelines wrote, before another run in the same folder: as above from the first step on, the
-/// tables and lists of times as a whole, and folders that are empty then. Throws OutputError that names the file.
+/// tables, lists of times and logs of scripts as a whole, and folders that are empty then. Throws OutputError that
+/// names the file.
 void remove_extracts(const std::filesystem::path& extracts, const std::filesystem::path& index);
 
 }  // namespace breccia

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -172,6 +171,7 @@ InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
     if (channels == 0) continue;
     plan.channels |= channels;
     plan.pipelines |= bit(i);
+    if (channels == std::uint32_t{1} << BRECCIA_HISTORY) plan.rows |= bit(i);
   }
   if (!plan) {
     account_idle(due);
@@ -211,9 +211,16 @@ void InSitu::execute(const Plan& plan, const Frame& frame, const std::vector<std
   tell_notices();
 }
 
+void InSitu::execute_late(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns,
+                          const std::optional<std::vector<double>>& row) {
+  planned_ = Clock::now();
+  execute(plan, frame, columns, row);
+}
+
 /// Before anything is written, so that a run resumed from an earlier step knows it. Without the line, extracts of this
 /// step stay where such a run ends before it.
 void InSitu::list_step() {
+  if (std::exchange(listed_, now_.step) == now_.step) return;
   try {
     communicator_.agree([&] {
       if (steps_) steps_->append_line(fmt::format("{},{:.17g}", now_.step, now_.time));
@@ -224,9 +231,12 @@ void InSitu::list_step() {
 }
 
 void InSitu::tell_notices() {
-  std::istringstream lines(
-      answer_of([&](char* words, std::size_t size) { plugin_.api().notices(adaptor_, words, size); }));
-  for (std::string line; std::getline(lines, line);) tell_("pipeline " + line, false);
+  tell_lines(answer_of([&](char* words, std::size_t size) { plugin_.api().notices(adaptor_, words, size); }));
+}
+
+/// Notices as the adaptor words them.
+void InSitu::tell_lines(const std::string& lines) {
+  for_each_notice(lines, [this](const std::string& line, bool warns) { tell_(line, !warns); });
 }
 
 void InSitu::run_one(std::size_t i, const BrecciaInstant& instant, double shared_cost) {
@@ -260,7 +270,10 @@ void InSitu::fail(Pipeline& pipeline, const std::string& why) {
     });
   }
   pipeline.off = pipeline.failures >= kMostFailures;
-  tell_(text + (pipeline.off ? "; switched off after " + std::to_string(kMostFailures) + " failures" : ""), false);
+  const bool is_known = std::exchange(pipeline.failure, text) == text;  // a reason is reported once
+  if (is_known && !pipeline.off) return;
+  const std::string what = is_known ? "pipeline " + pipeline.name + ": " : text + "; ";
+  tell_(pipeline.off ? what + "switched off after " + std::to_string(kMostFailures) + " failures" : text, false);
 }
 
 double InSitu::starts() const {
@@ -276,14 +289,13 @@ double InSitu::share() const {
 }
 
 /// @param lines  the root's, of which the others know nothing
-void InSitu::tell_animations(const std::string& lines) {
+void InSitu::tell_end(const std::string& lines) {
   std::vector<std::byte> bytes(lines.size());
   std::transform(lines.begin(), lines.end(), bytes.begin(), [](char c) { return std::byte(c); });
   communicator_.broadcast(bytes);
   std::string text(bytes.size(), ' ');
   std::transform(bytes.begin(), bytes.end(), text.begin(), [](std::byte b) { return static_cast<char>(b); });
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) tell_(line, true);
+  tell_lines(text);
 }
 
 std::vector<PipelineReport> InSitu::finish() {
@@ -304,7 +316,7 @@ std::vector<PipelineReport> InSitu::finish() {
     report.bytes = communicator_.sum(plugin_.api().bytes_written(adaptor_, static_cast<std::int32_t>(i)));
     reports.push_back(std::move(report));
   }
-  tell_animations(close());
+  tell_end(close());
   return reports;
 }
 

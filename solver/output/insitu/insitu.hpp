@@ -57,6 +57,7 @@ class InSitu {
   /// What is to be done in this step.
   struct Plan {
     std::uint32_t pipelines = 0, channels = 0;  ///< masks; 0: nothing
+    std::uint32_t rows = 0;                     ///< those of the pipelines that take the history alone
     explicit operator bool() const { return pipelines != 0; }
   };
   /// @param ordered  mask of pipelines that are due by order; @param all  execute all, regardless of the cost
@@ -66,6 +67,9 @@ class InSitu {
   /// Throws OutputError on all ranks when a pipeline fails and on_error is stop. Collective.
   void execute(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns,
                const std::optional<std::vector<double>>& row);
+  /// The same of a plan that had to wait for its row of the history: the wait is no cost of its pipelines.
+  void execute_late(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns,
+                    const std::optional<std::vector<double>>& row);
   /// Requests of the scripts of the last execution to the run; those of the root apply.
   [[nodiscard]] const BrecciaRequests& requests() const { return requests_; }
 
@@ -87,6 +91,7 @@ class InSitu {
     Overhead overhead;
     double next_wall = 0;  ///< s, when wall time makes it due again
     std::int64_t passed_over = 0, failures = 0;
+    std::string failure{};  ///< the last one
     bool off = false;
     bool even = false;       ///< spaced evenly over the run
     double interval = 0;     ///< s, simulated: of an even one without triggers; 0: it has triggers
@@ -109,9 +114,10 @@ class InSitu {
   void space_one(Pipeline& pipeline, double share);
   void run_one(std::size_t pipeline, const BrecciaInstant& instant, double shared_cost);
   [[nodiscard]] std::string close();
-  void tell_animations(const std::string& lines);
+  void tell_end(const std::string& lines);
   void fail(Pipeline& pipeline, const std::string& why);
   void tell_notices();
+  void tell_lines(const std::string& lines);
   void open_index(const std::filesystem::path& file);
   void list_step();
 
@@ -131,6 +137,7 @@ class InSitu {
   double opening_ = 0;           ///< s, wall: start of the adaptor
   std::optional<double> begin_;  ///< s, simulated: where this process began
   Moment now_;                   ///< of the last plan
+  std::int64_t listed_ = -1;     ///< last step in the index
   Moment first_;                 ///< of the run
 };
 

@@ -3,7 +3,9 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
@@ -48,10 +50,21 @@ class InSituConfig {
 /// @return  the words
 template <class Call>
 std::string answer_of(Call&& call) {
-  std::string text(std::size_t{1} << 14, '\0');
+  std::string text(std::size_t{1} << 17, '\0');
   call(text.data(), text.size());
   text.resize(text.find('\0'));
   return text;
+}
+
+/// Calls take(line, warns) for each line of an adaptor's notices, without the mark of a warning.
+template <class Take>
+void for_each_notice(const std::string& notices, Take&& take) {
+  constexpr std::string_view kWarning = "warning: ";
+  std::istringstream stream(notices);
+  for (std::string line; std::getline(stream, line);) {
+    const bool warns = line.starts_with(kWarning);
+    take(warns ? line.substr(kWarning.size()) : line, warns);
+  }
 }
 
 /// A problem of [insitu] for each line of a text.

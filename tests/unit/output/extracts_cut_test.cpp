@@ -56,6 +56,21 @@ TEST(ExtractsCutBack, LoseWhatWasWrittenFromTheStepOnAndNothingElse) {
   EXPECT_EQ(test::content_of(folder / "script" / "own.csv"), "999,1\n");
 }
 
+TEST(ExtractsOfAnEarlierRun, AreRemovedWithTheLogsOfScriptsAndNothingElseIs) {
+  const test::TemporaryFolder folder;
+  const fs::path script = folder / "extracts" / "script", pictures = folder / "extracts" / "stress";
+  for (const char* name : {"script.log", "script_rank_12.log", "own.log", "my_script.log"}) write(script / name, "x");
+  write(pictures / "script.log", "x");
+  write(pictures / "stress_000000240.png", "x");
+  write(folder / "extracts.csv", "step,time [s]\n240,3\n");
+  remove_extracts(folder / "extracts", folder / "extracts.csv");
+  EXPECT_FALSE(fs::exists(script / "script.log"));
+  EXPECT_FALSE(fs::exists(script / "script_rank_12.log"));
+  EXPECT_TRUE(fs::exists(script / "own.log"));
+  EXPECT_TRUE(fs::exists(script / "my_script.log"));
+  EXPECT_FALSE(fs::exists(pictures)) << "empty now";
+}
+
 TEST(ExtractsCutBack, NeedNotBeThere) {
   const test::TemporaryFolder folder;
   EXPECT_NO_THROW(cut_extracts_back(folder / "extracts", folder / "extracts.csv", 0));

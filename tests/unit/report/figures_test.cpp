@@ -21,13 +21,16 @@ TEST(Figures, AreThoseOfTheirFile) {
   write(folder / "figures.json", R"({"paraview": "5.11.0", "frames": 3, "time": 0.5, "problems": ["stress: none", 7],
     "pictures": [{"file": "a.png", "title": "T", "text": "W", "time": 0.25}, {"file": "../a.png"},
       {"file": "lost.png"}],
-    "fragments": {"count": 2, "d50": 0.1, "largest": [{"mass": 3, "velocity": [1, 2, 2]}],
+    "fragments": {"count": 2, "d50": 0.1, "swebrec_left_out": "too few",
+      "largest": [{"mass": 3, "velocity": [1, 2, 2]}],
       "sieve": {"size": [1, null]}}})");
   const Figures figures = read_figures(folder.path());
   EXPECT_EQ(figures.paraview, "5.11.0");
   EXPECT_EQ(figures.fact("fragments", "d50"), 0.1);
   EXPECT_TRUE(std::isnan(figures.fact("fragments", "none")));
   EXPECT_TRUE(std::isnan(figures.fact("none", "d50")));
+  EXPECT_EQ(figures.text("fragments", "swebrec_left_out"), "too few");
+  EXPECT_EQ(figures.text("fragments", "d50"), "");
   EXPECT_THAT(figures.problems, ElementsAre("stress: none"));
   EXPECT_THAT(figures.tables.at("fragments.largest").at(0).at("velocity"), ElementsAre(1, 2, 2));
   const std::vector<double>& size = figures.curves.at("fragments.sieve").at("size");

@@ -1,0 +1,12 @@
+# script-version: 2.0
+import sys
+
+from paraview import catalyst
+from paraview.simple import TrivialProducer
+
+surface = TrivialProducer(registrationName="surface")
+options = catalyst.Options()
+
+
+def catalyst_initialize():
+    sys.exit(0)

@@ -1,0 +1,14 @@
+# script-version: 2.0
+from paraview import catalyst
+from paraview.simple import TrivialProducer
+
+surface = TrivialProducer(registrationName="surface")
+options = catalyst.Options()
+
+
+def catalyst_execute(info):
+    surface.UpdatePipeline()
+
+
+def catalyst_finalize():
+    raise ValueError("cannot end")
