@@ -215,7 +215,7 @@ class Runner {
     sampled_without_line_ = sampled ? std::optional(time) : std::nullopt;
     if (line) take_line(time);
     if (row && !line) output_.take_row(time, *insitu_);
-    if (row) insitu_->execute_late();
+    if (row) insitu_->execute_delayed();
     if (line || last) check_energies(time);
     output_.tell_status(paused_);
     if (!sampled_without_line_) partition_.keep_up();  // a line that is to come needs what a division forgets
