@@ -59,8 +59,8 @@ std::vector<Command> InSituWatch::look(Observer& observer, bool all) {
       static_cast<std::uint32_t>(domain.state.signals.received.orders);  // the lower half is for pipelines
   InSitu::Plan plan = insitu_.plan(now, ordered, all);
   if (plan.rows != 0) {
-    if (!late_) late_ = Late{{0, std::uint32_t{1} << BRECCIA_HISTORY, 0}, observer.picture(0, parts_of(0))};
-    late_->plan.pipelines |= plan.rows;
+    if (!delayed_) delayed_ = Delayed{{0, std::uint32_t{1} << BRECCIA_HISTORY, 0}, observer.picture(0, parts_of(0))};
+    delayed_->plan.pipelines |= plan.rows;
     plan.pipelines &= ~plan.rows;
   }
   if (!plan) return {};
@@ -68,19 +68,19 @@ std::vector<Command> InSituWatch::look(Observer& observer, bool all) {
   return asked_by_scripts();
 }
 
-void InSituWatch::execute_late() {
-  if (!late_) return;
+void InSituWatch::execute_delayed() {
+  if (!delayed_) return;
   const auto lap = partition_.domain().timer.measure(Phase::insitu);
   partition_.communicator().set_phase("in-situ pipelines");
-  const Late late = std::move(*late_);
-  late_.reset();
+  const Delayed delayed = std::move(*delayed_);
+  delayed_.reset();
   given_step_ = row_step_;
-  insitu_.execute_late(late.plan, late.frame, columns_, last_row_);
+  insitu_.execute_delayed(delayed.plan, delayed.frame, columns_, last_row_);
 }
 
 /// The last state has no step that finds its row: pipelines get the last one, unless they have it.
 std::vector<PipelineReport> InSituWatch::finish() {
-  if (row_step_ != given_step_) execute_late();
+  if (row_step_ != given_step_) execute_delayed();
   return insitu_.finish();
 }
 

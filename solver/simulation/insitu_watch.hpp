@@ -30,13 +30,13 @@ class InSituWatch {
   /// A row of the history is known.
   void take_row(const HistoryRow& row);
   /// Whether pipelines that record the history wait for the row of the present state, which the next step finds.
-  [[nodiscard]] bool waits_for_row() const { return late_.has_value(); }
+  [[nodiscard]] bool waits_for_row() const { return delayed_.has_value(); }
   /// Executes them, with the last row. Collective.
-  void execute_late();
+  void execute_delayed();
   [[nodiscard]] double share_of_time() const { return insitu_.share(); }
 
   /// Executes the pipelines that are due on the present state; those that take the history alone are left to
-  /// execute_late(). Collective. @param all  every one of them, regardless of the cost
+  /// execute_delayed(). Collective. @param all  every one of them, regardless of the cost
   /// @return  requests of their scripts to the run, as control commands, the same on all ranks
   [[nodiscard]] std::vector<Command> look(Observer& observer, bool all);
 
@@ -49,14 +49,14 @@ class InSituWatch {
   [[nodiscard]] std::vector<Command> asked_by_scripts() const;
 
   /// What waits for its row of the history.
-  struct Late {
+  struct Delayed {
     InSitu::Plan plan;
     Frame frame;
   };
   Partition& partition_;
   InSitu insitu_;
-  std::optional<Late> late_;
-  std::int64_t row_step_ = -1, given_step_ = -1;          ///< of the last row; of the last one that pipelines got late
+  std::optional<Delayed> delayed_;
+  std::int64_t row_step_ = -1, given_step_ = -1;          ///< of the last row; of the last one that pipelines got
   std::vector<std::string> columns_;                      ///< of the history
   std::optional<std::vector<double>> last_row_;           ///< of the history, on the root
   std::int64_t broken_here_ = 0, broken_everywhere_ = 0;  ///< joints, when they were last counted

@@ -197,7 +197,7 @@ class Runner {
     sampled_without_line_ = sampled ? std::optional(time) : std::nullopt;
     const std::vector<double> numbers = line ? take_line(time) : std::vector<double>{};
     if (row && !line) output_.take_row(time, *insitu_);
-    if (row) insitu_->execute_late();
+    if (row) insitu_->execute_delayed();
     if (line || last) check_energies(time);
     if (line) act_on(conditions_.take(numbers, stage_));
     output_.tell_status(paused_);

@@ -79,29 +79,6 @@ TEST_P(InSitu, RecordsEveryChannelAndTellsOfIt) {
   EXPECT_NE(read_text(run.folder() / "history.csv").find("in situ share of wall time"), std::string::npos);
 }
 
-TEST_P(InSitu, RecordsTheRowsOfTheHistoryOfItsOwnSteps) {
-  const WatchedRun plain(1, ""),
-      run(GetParam(), "--set 'insitu.pipeline=[{name=\"history\", every_steps=30, strict=true}]'");
-  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
-  const fs::path rows = run.folder() / "extracts/history/history.csv", lines = run.folder() / "history.csv";
-  const std::vector<double> steps = history_column(rows, "step"), energy = history_column(rows, "kinetic [J]");
-  std::vector<double> due = history_column(run.folder() / "extracts.csv", "step");
-  ASSERT_EQ(steps.size(), due.size());
-  due.back() -= 1;  // the last state has no step behind it that finds its row
-  EXPECT_EQ(steps, due);
-  const std::vector<double> known = history_column(lines, "step"), known_energy = history_column(lines, "kinetic [J]");
-  std::size_t shared = 0;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const auto line = std::find(known.begin(), known.end(), steps[i]);
-    if (line == known.end()) continue;
-    ++shared;
-    EXPECT_EQ(energy[i], known_energy[static_cast<std::size_t>(line - known.begin())]) << "step " << steps[i];
-  }
-  EXPECT_GT(shared, 2U);
-  EXPECT_EQ(known, history_column(plain.folder() / "history.csv", "step")) << "the run's own history stays";
-  EXPECT_EQ(known_energy, history_column(plain.folder() / "history.csv", "kinetic [J]"));
-}
-
 TEST_P(InSitu, TriggersByTheFirstBreakAndByBrokenJointsHitTheSameStepsOnAnyNumberOfRanks) {
   const std::string triggers =
       "--set 'insitu.pipeline=[{name=\"fractures\", first_break=true, strict=true}, {name=\"surface\", "

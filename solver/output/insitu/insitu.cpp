@@ -211,8 +211,8 @@ void InSitu::execute(const Plan& plan, const Frame& frame, const std::vector<std
   tell_notices();
 }
 
-void InSitu::execute_late(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns,
-                          const std::optional<std::vector<double>>& row) {
+void InSitu::execute_delayed(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns,
+                             const std::optional<std::vector<double>>& row) {
   planned_ = Clock::now();
   execute(plan, frame, columns, row);
 }

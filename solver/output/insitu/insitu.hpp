@@ -68,8 +68,8 @@ class InSitu {
   void execute(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns,
                const std::optional<std::vector<double>>& row);
   /// The same of a plan that had to wait for its row of the history: the wait is no cost of its pipelines.
-  void execute_late(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns,
-                    const std::optional<std::vector<double>>& row);
+  void execute_delayed(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns,
+                       const std::optional<std::vector<double>>& row);
   /// Requests of the scripts of the last execution to the run; those of the root apply.
   [[nodiscard]] const BrecciaRequests& requests() const { return requests_; }
 
