@@ -74,7 +74,7 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Boxes along x, y and z.", .example = "[8, 8, 8]"},
     {.path = "mesh.raster.gap", .type = vector_or_number, .unit = "m", .fallback = "[0, 0, 0]", .range = not_negative,
      .help = "Free space between neighbouring boxes along x, y and z.", .example = "\"1 mm\""},
-    {.path = "mesh.raster.origin", .level = basic, .type = vector, .unit = "m", .fallback = "[0, 0, 0]",
+    {.path = "mesh.raster.origin", .type = vector, .unit = "m", .fallback = "[0, 0, 0]",
      .help = "Lowest corner of the first box.", .example = "[\"-30 mm\", \"-30 mm\", 0]"},
     {.path = "mesh.raster.group", .level = basic, .type = text, .fallback = "raster",
      .help = "Name of the volume group of every box.",
