@@ -67,12 +67,14 @@ TEST(OverlapField, HasAFreedFaceAtOnceAndKnowsWhatItWasOneStepAgo) {
     return overlap_value(overlap_shape(scene.params, scene.local, scene.contact, 0, instant), lambda);
   };
   ASSERT_NEAR(g(Instant::now), 1.0 / 3.0, kRoundOff) << "the centre of the cube lies 1 deep";
+  EXPECT_TRUE(has_sides(scene.params, scene.contact, 0));
   for (const unsigned freed : {set, set, set & ~face, face}) {  // other freed faces of the corners free them again
     free_corners(scene.params, 0, freed, scene.contact);
     EXPECT_EQ(scene.contact.changed.size(), 1U);
     EXPECT_EQ(g(Instant::now), 0);
     EXPECT_NEAR(g(Instant::step_before), 1.0 / 3.0, kRoundOff);
   }
+  EXPECT_FALSE(has_sides(scene.params, scene.contact, 0)) << "they are not distinguished beside cracks";
   end_changes(scene.contact);
   EXPECT_EQ(g(Instant::step_before), 0);
   const SurfaceSides sides = scene.contact.field[0].sides;
