@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <random>
@@ -111,6 +112,29 @@ struct Pressed {
   }
   [[nodiscard]] double accounted() const { return scene.work.stored.value() + scene.work.dissipated.value(); }
 };
+
+TEST(OverlapField, CountsTheSameSidesAsLongAsACouplePressesWhicheverWayItsPointTurns) {
+  Pressed pressed({kPenalty, kInfinite, 1, 0, 1});
+  test::Scene& scene = pressed.scene;
+  scene.shift(1, {-1.2, 0, 0});  // beside an edge
+  for (const Index node : scene.nodes_of(1)) store_node(scene.state.velocity.data(), node, Vec3::Zero());
+  scene.evaluate(1e-3);
+  ASSERT_EQ(scene.contact.touching.size(), 1U);
+  const TouchingCouple before = scene.contact.touching[0];
+  ASSERT_NE(sides_of(before.history), kAllRows) << "an element with several sides";
+  const Vec3 place = at_point(face_rule(1), scene.contact.points[at(before.point)], scene.state.position.data());
+  for (const Index node : scene.nodes_of(1)) {
+    const Vec3 arm = load_node(scene.state.position.data(), node) - place;
+    store_node(scene.state.position.data(), node, place + Eigen::AngleAxisd(1.7, Vec3::UnitY()) * arm);
+    store_node(scene.state.velocity.data(), node, Vec3::Zero());
+  }
+  scene.evaluate(1e-3);
+  const auto is_same = [&](const TouchingCouple& couple) { return couple.point == before.point; };
+  const auto after = std::find_if(scene.contact.touching.begin(), scene.contact.touching.end(), is_same);
+  ASSERT_NE(after, scene.contact.touching.end());
+  EXPECT_EQ(after->history.sides, before.history.sides);
+  EXPECT_NEAR(after->history.d, before.history.d, kRoundOff);
+}
 
 /// The corner of a contactor, of some, opposite to which lies the face that looks up the most.
 std::size_t opposite_to_top(const test::Scene& scene, Index contactor, unsigned corners) {
