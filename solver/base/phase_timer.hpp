@@ -31,17 +31,17 @@ enum class Phase {
   return names[static_cast<std::size_t>(phase)];
 }
 
-/// Accumulated wall time by phase, s. Use `auto lap = timer.measure(Phase::sweep);` in a scope.
+/// Accumulated wall time by phase, s. Use `auto timing = timer.measure(Phase::sweep);` in a scope.
 class PhaseTimer {
  public:
   using Clock = std::chrono::steady_clock;
 
-  class Lap {
+  class Measurement {
    public:
-    Lap(PhaseTimer& timer, Phase phase) : timer_(timer), phase_(phase), start_(Clock::now()) {}
-    Lap(const Lap&) = delete;
-    Lap& operator=(const Lap&) = delete;
-    ~Lap() { timer_.add(phase_, std::chrono::duration<double>(Clock::now() - start_).count()); }
+    Measurement(PhaseTimer& timer, Phase phase) : timer_(timer), phase_(phase), start_(Clock::now()) {}
+    Measurement(const Measurement&) = delete;
+    Measurement& operator=(const Measurement&) = delete;
+    ~Measurement() { timer_.add(phase_, std::chrono::duration<double>(Clock::now() - start_).count()); }
 
    private:
     PhaseTimer& timer_;
@@ -49,7 +49,7 @@ class PhaseTimer {
     Clock::time_point start_;
   };
 
-  [[nodiscard]] Lap measure(Phase phase) { return {*this, phase}; }
+  [[nodiscard]] Measurement measure(Phase phase) { return {*this, phase}; }
   void add(Phase phase, double seconds) { seconds_[static_cast<std::size_t>(phase)] += seconds; }
   void add(const PhaseTimer& other) {
     for (std::size_t p = 0; p < seconds_.size(); ++p) seconds_[p] += other.seconds_[p];

@@ -48,9 +48,9 @@ class ExperimentValidator {
     const std::vector<std::string>& groups = c_.output.gauges;
     if (std::find(groups.begin(), groups.end(), gauge.name) != groups.end())
       problem(gauge.origin, "name", "output.gauges records a group of this name", "another name", gauge.name);
-    bool told = false;
+    bool reported = false;
     for (const HistoryColumn& column : columns_of(gauge)) {
-      if (columns_.insert(column.gauge + "\n" + column.quantity).second || std::exchange(told, true)) continue;
+      if (columns_.insert(column.gauge + "\n" + column.quantity).second || std::exchange(reported, true)) continue;
       problem(gauge.origin, "name", "another gauge has a column of this name", "different names", column.name());
     }
     const bool has_two = gauge.kind == GaugeKind::line || gauge.kind == GaugeKind::extensometer;

@@ -9,23 +9,11 @@
 #include "base/extent.hpp"
 #include "base/printable.hpp"
 #include "base/quantity_text.hpp"
-#include "mesh/geometry.hpp"
+#include "mesh/holding_elements.hpp"
 #include "output/insitu/trigger.hpp"
 
 namespace breccia {
 namespace {
-
-/// Share of a tetrahedron's volume by which a point may lie outside: far above round-off.
-constexpr double kOutside = 1e-9;
-
-bool is_inside(const std::array<Vec3, 4>& x, const Vec3& point) {
-  const double volume = geometry::tetra_volume(x[0], x[1], x[2], x[3]);
-  const double least = -kOutside * volume;
-  return geometry::tetra_volume(point, x[1], x[2], x[3]) >= least &&
-         geometry::tetra_volume(x[0], point, x[2], x[3]) >= least &&
-         geometry::tetra_volume(x[0], x[1], point, x[3]) >= least &&
-         geometry::tetra_volume(x[0], x[1], x[2], point) >= least;
-}
 
 std::vector<Vec3> points_of(const case_::Probe& probe) {
   std::vector<Vec3> points;
@@ -81,8 +69,9 @@ std::string region_line(const case_::Region& region, const Mesh& mesh) {
 }
 
 std::string probe_line(const case_::Probe& probe, const Mesh& mesh) {
-  const auto points = static_cast<std::int64_t>(probe.points) * probe.rows;
-  const auto inside = static_cast<std::int64_t>(points_in_elements(probe, mesh));
+  const std::vector<HoldingElement> held = holding_elements(mesh, points_of(probe));
+  const auto points = std::ssize(held);
+  const auto inside = std::count_if(held.begin(), held.end(), [](const HoldingElement& h) { return h.element >= 0; });
   std::string text = fmt::format("    probe {}: {} of {} points in elements before the first step",
                                  printable(probe.name), count_text(inside), count_text(points));
   if (inside < points) text += "; " + box_of(mesh);
@@ -90,25 +79,6 @@ std::string probe_line(const case_::Probe& probe, const Mesh& mesh) {
 }
 
 }  // namespace
-
-std::size_t points_in_elements(const case_::Probe& probe, const Mesh& mesh) {
-  std::vector<Vec3> points = points_of(probe);
-  std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
-  std::vector<bool> inside(points.size());
-  for (Index e = 0; e < mesh.num_elements(); ++e) {
-    const auto x = geometry::corners_of(mesh, e);
-    Extent box = extent_of(x);
-    const Vec3 margin = kOutside * (box.upper - box.lower);
-    box = {box.lower - margin, box.upper + margin};
-    const auto first = std::lower_bound(points.begin(), points.end(), box.lower.x(),
-                                        [](const Vec3& point, double value) { return point.x() < value; });
-    for (auto point = first; point != points.end() && point->x() <= box.upper.x(); ++point) {
-      const auto i = static_cast<std::size_t>(point - points.begin());
-      if (!inside[i] && Extent{*point, *point}.near(box, 0)) inside[i] = is_inside(x, *point);
-    }
-  }
-  return static_cast<std::size_t>(std::count(inside.begin(), inside.end(), true));
-}
 
 std::string insitu_report(const case_::Case& input, const Mesh& mesh, double begin, double steps) {
   if (input.insitu.pipelines.empty()) return {};

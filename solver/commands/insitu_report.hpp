@@ -13,7 +13,4 @@ namespace breccia {
 /// @param steps  of the run, as estimated
 [[nodiscard]] std::string insitu_report(const case_::Case& input, const Mesh& mesh, double begin, double steps);
 
-/// Points of probes that lie in an element, faces included. O(elements log points).
-[[nodiscard]] std::size_t points_in_elements(const case_::Probe& probe, const Mesh& mesh);
-
 }  // namespace breccia

@@ -186,7 +186,7 @@ ExactSum external_work(const Domain& domain) {
 }
 
 void conclude(Domain& domain) {
-  const auto lap = domain.timer.measure(Phase::communication);
+  const auto timing = domain.timer.measure(Phase::communication);
   domain.exchange.conclude(domain.state.clock, domain.state.signals);
   record_received_motion(domain);
 }

@@ -158,7 +158,7 @@ void Partition::decompose_anew(WholeModel whole, Records mine, const std::vector
   const Phase phase = stage_ != nullptr ? Phase::decomposition : Phase::setup;  // the first one is before all stages
   PhaseTimer timer;
   {
-    const auto lap = timer.measure(phase);
+    const auto timing = timer.measure(phase);
     rebuild(std::move(whole), std::move(mine), weight, from);
   }
   decomposition_s_ = communicator_.max(timer.seconds(phase));
@@ -227,17 +227,17 @@ StepState Partition::step_state() const {
 }
 
 StableStep Partition::stable_step(double steps) const {
-  const auto lap = domain_->timer.measure(Phase::stable_step);
+  const auto timing = domain_->timer.measure(Phase::stable_step);
   return global_stable_step(communicator_, *time_step_, step_state(), steps);
 }
 
 double Partition::step_length(double steps, const StepRange& range) const {
-  const auto lap = domain_->timer.measure(Phase::stable_step);
+  const auto timing = domain_->timer.measure(Phase::stable_step);
   return global_step_length(communicator_, *time_step_, step_state(), steps, range);
 }
 
 double Partition::step_length(const case_::Stage& stage, double steps) const {
-  const auto lap = domain_->timer.measure(Phase::stable_step);
+  const auto timing = domain_->timer.measure(Phase::stable_step);
   const StageLoads loads = stage_loads(stage, *model_);
   StepState state = step_state();
   state.constraints = &loads.constraints;

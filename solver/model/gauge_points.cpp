@@ -1,8 +1,6 @@
 #include "model/gauge_points.hpp"
 
-#include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "base/index.hpp"
 #include "base/number_text.hpp"
@@ -15,20 +13,8 @@ namespace {
 
 using Corners = std::array<Vec3, 4>;
 
-/// Barycentric coordinates: each corner's share of the volume.
-std::array<double, 4> weights_of(const Corners& x, const Vec3& point) {
-  const double volume = geometry::tetra_volume(x[0], x[1], x[2], x[3]);
-  std::array<double, 4> weights{};
-  for (std::size_t c = 0; c < 4; ++c) {
-    Corners part = x;
-    part[c] = point;
-    weights[c] = geometry::tetra_volume(part[0], part[1], part[2], part[3]) / volume;
-  }
-  return weights;
-}
-
 std::string text_of(const Vec3& place) {
-  constexpr int kDigits = 9;  // less than kOutside of any element
+  constexpr int kDigits = 9;  // finer than kOutside of any element
   std::string text = "[";
   for (int axis = 0; axis < 3; ++axis)
     text += (axis > 0 ? ", \"" : "\"") + number_text(1e3 * place[axis], kDigits) + " mm\"";
@@ -63,28 +49,10 @@ std::vector<GaugePoint> gauge_points(const case_::Case& input) {
   return points;
 }
 
-std::vector<HoldingElement> holding_elements(const Mesh& mesh, const std::vector<GaugePoint>& points) {
-  std::vector<HoldingElement> found(points.size());
-  if (points.empty()) return found;
-  std::vector<std::size_t> by_x(points.size());
-  std::iota(by_x.begin(), by_x.end(), std::size_t{0});
-  std::sort(by_x.begin(), by_x.end(), [&](auto p, auto q) { return points[p].place[0] < points[q].place[0]; });
-  for (Index e = 0; e < mesh.num_elements(); ++e) {  // by ascending id
-    const Corners x = geometry::corners_of(mesh, e);
-    const Vec3 margin = Vec3::Constant(kOutside * geometry::longest_edge(x));
-    const Vec3 lower = x[0].cwiseMin(x[1]).cwiseMin(x[2]).cwiseMin(x[3]) - margin;
-    const Vec3 upper = x[0].cwiseMax(x[1]).cwiseMax(x[2]).cwiseMax(x[3]) + margin;
-    auto next = std::lower_bound(by_x.begin(), by_x.end(), lower[0],
-                                 [&](std::size_t p, double least) { return points[p].place[0] < least; });
-    for (; next != by_x.end() && points[*next].place[0] <= upper[0]; ++next) {
-      const Vec3& point = points[*next].place;
-      HoldingElement& holds = found[*next];
-      if (holds.element >= 0 || (point - lower).minCoeff() < 0 || (upper - point).minCoeff() < 0) continue;
-      const std::array<double, 4> weights = weights_of(x, point);
-      if (*std::min_element(weights.begin(), weights.end()) >= -kOutside) holds = {e, weights};
-    }
-  }
-  return found;
+std::vector<Vec3> places_of(const std::vector<GaugePoint>& points) {
+  std::vector<Vec3> places;
+  for (const GaugePoint& point : points) places.push_back(point.place);
+  return places;
 }
 
 Vec3 nearest_place(const Mesh& mesh, const Vec3& point) {
@@ -112,7 +80,7 @@ Problem point_outside(const case_::Case& input, const GaugePoint& point, const V
 
 std::vector<Problem> points_outside(const case_::Case& input, const Mesh& mesh) {
   const std::vector<GaugePoint> points = gauge_points(input);
-  const std::vector<HoldingElement> found = holding_elements(mesh, points);
+  const std::vector<HoldingElement> found = holding_elements(mesh, places_of(points));
   std::vector<Problem> problems;
   for (std::size_t p = 0; p < points.size(); ++p) {
     const bool is_new =

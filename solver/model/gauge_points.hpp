@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "case/case.hpp"
+#include "mesh/holding_elements.hpp"
 #include "mesh/mesh.hpp"
 
 namespace breccia {
@@ -21,17 +21,7 @@ struct GaugePoint {
 /// extensometer.
 [[nodiscard]] std::vector<GaugePoint> gauge_points(const case_::Case& input);
 
-/// The element that holds a point.
-struct HoldingElement {
-  Index element = -1;               ///< of the mesh; -1: none
-  std::array<double, 4> weights{};  ///< of its corners: barycentric coordinates
-};
-
-/// The element of each point: of several that meet there, the one with the lowest id. A point that is outside by less
-/// than kOutside of the heights of an element counts as within. The same bits for any piece of a mesh with the element.
-/// O(elements log points)
-inline constexpr double kOutside = 1e-6;
-[[nodiscard]] std::vector<HoldingElement> holding_elements(const Mesh& mesh, const std::vector<GaugePoint>& points);
+[[nodiscard]] std::vector<Vec3> places_of(const std::vector<GaugePoint>& points);
 
 /// The place of the mesh nearest to a point. O(elements)
 [[nodiscard]] Vec3 nearest_place(const Mesh& mesh, const Vec3& point);

@@ -48,7 +48,7 @@ std::int64_t failed_joints_at(const Domain& domain, const std::vector<std::uint8
 void PointGauges::find(const Domain& domain) {
   if (input_.gauges.empty()) return;
   const Model& model = domain.model;
-  const std::vector<HoldingElement> found = holding_elements(model.mesh, points_);
+  const std::vector<HoldingElement> found = holding_elements(model.mesh, places_of(points_));
   std::vector<double> held(points_.size(), kNone);  // minus the lowest id
   for (std::size_t p = 0; p < found.size(); ++p)
     if (found[p].element >= 0) held[p] = -static_cast<double>(model.mesh.element_id(found[p].element));

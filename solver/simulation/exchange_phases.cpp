@@ -13,7 +13,7 @@ namespace {
 void receive_releases(Domain& domain) {
   domain.scratch.freed.clear();
   if (!domain.state.signals.released) return;
-  const auto lap = domain.timer.measure(Phase::communication);
+  const auto timing = domain.timer.measure(Phase::communication);
   const Model& model = domain.model;
   const Communicator& communicator = domain.exchange.communicator();
   std::vector<GlobalId>& mine = domain.state.signals.released_here;
@@ -31,7 +31,7 @@ void receive_releases(Domain& domain) {
 /// @return  (slots) 1: near enough to be searched; empty: all
 std::vector<std::uint8_t> receive_moved(bool search, Domain& domain) {
   if (domain.exchange.alone() || !(search || domain.exchange.gathers_all())) return {};
-  const auto lap = domain.timer.measure(Phase::communication);
+  const auto timing = domain.timer.measure(Phase::communication);
   NodalState& nodes = domain.state.nodes;
   domain.exchange.gather_all(nodes.position, nodes.velocity);
   if (!search) return {};
@@ -50,7 +50,7 @@ double motion_here(const Domain& domain) {
 /// Histories of points that came into couples here, and what is gathered from now on.
 void follow_couples(bool search, bool meets_others, Domain& domain) {
   if (domain.exchange.alone() || !(search || domain.state.signals.released)) return;
-  const auto lap = domain.timer.measure(Phase::communication);
+  const auto timing = domain.timer.measure(Phase::communication);
   if (!search && domain.exchange.communicator().max(static_cast<std::int64_t>(meets_others)) == 0) return;
   domain.contact->adopt(domain.exchange.receive_touching(*domain.contact));
   domain.plan_exchange();
@@ -61,7 +61,7 @@ void follow_couples(bool search, bool meets_others, Domain& domain) {
 }  // namespace
 
 void receive_signals(Domain& domain) {
-  const auto lap = domain.timer.measure(Phase::communication);
+  const auto timing = domain.timer.measure(Phase::communication);
   domain.exchange.finish_reduction(domain.state.clock, domain.state.signals);
   record_received_motion(domain);
   check_motion(domain);
@@ -82,14 +82,14 @@ void update_couples(Domain& domain) {
   domain.exchange.communicator().set_phase("contact search");
   bool due = false, meets_others = false;
   {
-    const auto lap = domain.timer.measure(Phase::search);
+    const auto timing = domain.timer.measure(Phase::search);
     contact.count_travel(motion_here(domain));
     due =
         contact.due(state.nodes, {state.signals.motion, unforeseen_motion(domain, 1)}, domain.exchange.communicator());
   }
   const std::vector<std::uint8_t> current = receive_moved(due, domain);
   {
-    const auto lap = domain.timer.measure(Phase::search);
+    const auto timing = domain.timer.measure(Phase::search);
     // In this order, so that what fracture makes touch is known as such also when nothing has been searched yet.
     if (due) contact.search(state.nodes, state.signals.motion, current);
     if (due) ++state.counters.searches;
@@ -101,7 +101,7 @@ void update_couples(Domain& domain) {
 
 void receive_proxies(Domain& domain) {
   if (domain.exchange.alone()) return;
-  const auto lap = domain.timer.measure(Phase::communication);
+  const auto timing = domain.timer.measure(Phase::communication);
   domain.exchange.communicator().set_phase("gather of proxies");
   domain.exchange.finish_gather();
 }

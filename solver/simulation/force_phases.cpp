@@ -31,7 +31,7 @@ void joint_forces(const Model& model, Simd simd, State& state, NodalForces& forc
 
 void account_step_change(Domain& domain) {
   domain.exchange.agree_on_failure();
-  const auto lap = domain.timer.measure(Phase::energy);
+  const auto timing = domain.timer.measure(Phase::energy);
   AccountedWork& work = domain.state.work;
   // Where a load sets in on a body at rest there is no energy yet but this: it counts as put in.
   double& account = begins_stage(domain.state) ? work.first_excess : work.step_change;
@@ -40,7 +40,7 @@ void account_step_change(Domain& domain) {
 
 void sample_energies(Domain& domain) {
   domain.exchange.agree_on_failure();
-  const auto lap = domain.timer.measure(Phase::energy);
+  const auto timing = domain.timer.measure(Phase::energy);
   domain.sample = energy_sample(domain.scratch.velocity_before, domain);
   double& first = domain.state.work.first_excess;
   if (std::isnan(first)) first = excess_energy(domain.sample.budget) - domain.sample.budget.step_change;

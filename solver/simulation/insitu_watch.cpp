@@ -53,7 +53,7 @@ std::vector<Command> InSituWatch::look(Observer& observer, bool all) {
   Domain& domain = partition_.domain();
   if (domain.state.signals.received.broke || domain.state.clock.steps == count_at_) count_broken();
   const Moment now{domain.state.clock.steps, domain.state.clock.time, domain.state.clock.dt, broken_everywhere_};
-  const auto lap = domain.timer.measure(Phase::insitu);
+  const auto timing = domain.timer.measure(Phase::insitu);
   partition_.communicator().set_phase("in-situ pipelines");
   const auto ordered =
       static_cast<std::uint32_t>(domain.state.signals.received.orders);  // the lower half is for pipelines
@@ -70,7 +70,7 @@ std::vector<Command> InSituWatch::look(Observer& observer, bool all) {
 
 void InSituWatch::execute_delayed() {
   if (!delayed_) return;
-  const auto lap = partition_.domain().timer.measure(Phase::insitu);
+  const auto timing = partition_.domain().timer.measure(Phase::insitu);
   partition_.communicator().set_phase("in-situ pipelines");
   const Delayed delayed = std::move(*delayed_);
   delayed_.reset();

@@ -164,13 +164,13 @@ void sweep_runs(SweepFunction sweep, std::span<const BlockRun> runs, SweepArgs a
 }
 
 void sweep_all(const SweepArgs& args, Domain& domain) {
-  const auto lap = domain.timer.measure(Phase::sweep);
+  const auto timing = domain.timer.measure(Phase::sweep);
   note_status(sweep_for(domain.simd)(args), domain);
 }
 
 /// Shared nodes, and the blocks that others wait for.
 void sweep_ahead(const SweepArgs& args, Domain& domain) {
-  const auto lap = domain.timer.measure(Phase::sweep);
+  const auto timing = domain.timer.measure(Phase::sweep);
   SweepArgs only_shared = args;
   only_shared.end_own_block = 0;
   SweepStatus status = sweep_for(domain.simd)(only_shared);
@@ -180,7 +180,7 @@ void sweep_ahead(const SweepArgs& args, Domain& domain) {
 
 /// Messages move on meanwhile.
 void sweep_rest(const SweepArgs& args, Domain& domain) {
-  const auto lap = domain.timer.measure(Phase::sweep);
+  const auto timing = domain.timer.measure(Phase::sweep);
   SweepStatus status;
   sweep_runs(sweep_for(domain.simd), domain.derived.rest, args, status,
              [&] { domain.exchange.communicator().make_progress(); });
@@ -196,7 +196,7 @@ void stand_still_if_failed(Domain& domain) {
 }
 
 void send_proxies(Domain& domain) {
-  const auto lap = domain.timer.measure(Phase::communication);
+  const auto timing = domain.timer.measure(Phase::communication);
   domain.exchange.communicator().set_phase("gather of proxies");
   domain.exchange.begin_gather(domain.state.nodes.next_position, domain.state.nodes.velocity);
 }
@@ -242,14 +242,14 @@ void account_held_damping(const SweepArgs& args, Domain& domain) {
 void absorb(const SweepArgs& args, Domain& domain) {
   State& state = domain.state;
   if (state.absorbing.empty()) return;
-  const auto lap = domain.timer.measure(Phase::loads);
+  const auto timing = domain.timer.measure(Phase::loads);
   state.absorbing.apply(state.nodes, state.clock.dt_before, state.clock.dt, args.damping_before, args.damping_after);
 }
 
 void constrain(const SweepArgs& args, Domain& domain) {
   State& state = domain.state;
   if (state.constraints.empty()) return;
-  const auto lap = domain.timer.measure(Phase::loads);
+  const auto timing = domain.timer.measure(Phase::loads);
   const bool damped = args.damping_after != nullptr;
   if (damped) keep_held(domain, domain.scratch.held_free);
   state.constraints.apply(state.nodes, state.clock.time, state.clock.dt_before, state.clock.dt);
@@ -281,7 +281,7 @@ void correct_max_speed(double fastest_if_free, Domain& domain) {
 
 /// Padding stays where it is; work of the halves after t_n with the velocities as constraints left them.
 void finish_motion(const SweepArgs& args, Domain& domain) {
-  const auto lap = domain.timer.measure(Phase::loads);
+  const auto timing = domain.timer.measure(Phase::loads);
   if (args.kept_stress != nullptr) rate_work_for(domain.simd)(args);
   NodalState& nodes = domain.state.nodes;
   for (const Index node : domain.derived.padding_nodes) {

@@ -47,10 +47,9 @@ class Runner {
     from_ = from.position;
     options_ = options;
     extract_commanded_ = from_->extract_due;
-    if (!conditions_.restore(from_->conditions))
+    if (!conditions_.restore(from_->conditions) || !output_.restore_peaks(from_->peaks))
       throw InputError(Problem{folder.root.string(), 0, "resume",
-                               "this checkpoint is damaged: the memory of the conditions is not that of its case", "",
-                               ""});
+                               "this checkpoint is damaged: it has not the conditions and gauges of its case", "", ""});
     if (checkpoints_) checkpoints_->restore(*from_);
   }
 
@@ -265,7 +264,7 @@ class Runner {
   }
 
   void end_with_checkpoint() {
-    const auto lap = partition_.domain().timer.measure(Phase::checkpoint);
+    const auto timing = partition_.domain().timer.measure(Phase::checkpoint);
     checkpoints_->finish();
   }
 

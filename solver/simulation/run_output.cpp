@@ -68,7 +68,6 @@ void RunOutput::tell_start(bool insitu, const RunPosition* from) {
     frame_number_ = from->frame_number;
     last_fragments_ = from->fragments;
     last_broken_ = from->broken_joints;
-    (void)peaks_.restore(from->peaks);  // the columns are those of the checkpoint's case
     wall_before_ = from->wall;
     start_time_ = from->start_time;
     start_step_ = from->start_step;
@@ -98,7 +97,7 @@ void RunOutput::tell_of_frame_interval(bool told_before) {
 }
 
 std::vector<double> RunOutput::take_line(double time, InSituWatch* insitu) {
-  const auto lap = partition_.domain().timer.measure(Phase::output);
+  const auto timing = partition_.domain().timer.measure(Phase::output);
   HistoryRow row = observer_.row(time);
   if (insitu != nullptr) row.insitu_share = insitu->share_of_time();
   last_fragments_ = row.fragments;
@@ -111,7 +110,7 @@ std::vector<double> RunOutput::take_line(double time, InSituWatch* insitu) {
 }
 
 void RunOutput::take_row(double time, InSituWatch& insitu) {
-  const auto lap = partition_.domain().timer.measure(Phase::output);
+  const auto timing = partition_.domain().timer.measure(Phase::output);
   HistoryRow row = observer_.row(time);
   row.insitu_share = insitu.share_of_time();
   insitu.take_row(row);
@@ -131,7 +130,7 @@ void RunOutput::check_energies(double time) {
 }
 
 void RunOutput::write_frame() {
-  const auto lap = partition_.domain().timer.measure(Phase::output);
+  const auto timing = partition_.domain().timer.measure(Phase::output);
   const FrameParts parts{input_.output.elements, input_.output.joints, input_.output.contacts};
   const Frame frame = observer_.picture(frame_number_++, parts);
   sink_group_.tell([&](Sink& sink) { sink.frame(frame); });

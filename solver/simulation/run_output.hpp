@@ -40,6 +40,9 @@ class RunOutput {
   [[nodiscard]] bool line_due() { return histories_.due(clock().time, clock().dt, clock().steps); }
   void change_frame_interval(double interval) { frames_.change(interval, clock().time, clock().dt); }
 
+  /// Peaks::restore
+  [[nodiscard]] bool restore_peaks(const std::vector<double>& memory) { return peaks_.restore(memory); }
+
   void write_frame();
   /// A line of the history. @param time  s, of the step that was sampled;  @param insitu  null: none
   /// @return  its numbers, in the order of the columns

@@ -11,7 +11,7 @@ void step(Domain& domain, const StepOptions& options) {
   State& state = domain.state;
   StepScratch& scratch = domain.scratch;
   const auto timed = [&](Phase phase, const auto& f) {
-    const auto lap = domain.timer.measure(phase);
+    const auto timing = domain.timer.measure(phase);
     f();
   };
   receive_signals(domain);

@@ -8,37 +8,11 @@ import sys
 import tempfile
 import unittest
 
+import two_boxes
+
 PROGRAM, MPIEXEC, PVPYTHON, XVFB_RUN = sys.argv[1:5]
 HERE = os.path.dirname(os.path.abspath(__file__))
-CASE = """title = "two boxes"
-[mesh.raster]
-cells = [2, 2, 1]
-cell_size = "10 mm"
-boxes = [2, 1, 1]
-gap = ["1 mm", "0 mm", "0 mm"]
-group = "box"
-[[material]]
-group = "box"
-young = "4 MPa"
-poisson = 0.3
-density = "2340 kg/m3"
-joints = "breakable"
-[[joint]]
-group = "box"
-penalty_factor = 10
-tensile_strength = "20 kPa"
-energy_mode_1 = "1 J/m2"
-[[contact]]
-between = ["*", "*"]
-penalty = "40 MPa"
-[[initial_velocity]]
-group = "box"
-random = ["1 m/s", "2 m/s"]
-seed = 3
-[[stage]]
-name = "fly"
-end = "4 ms"
-"""
+CASE = two_boxes.case(cells=[2, 2, 1], strength="20 kPa", energy="1 J/m2", end="4 ms")
 PIPELINE = '{{name="{}", every_time="0.6 ms", strict=true}}'
 
 

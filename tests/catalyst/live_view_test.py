@@ -17,44 +17,18 @@ import tempfile
 import time
 import unittest
 
+import two_boxes
+
 PROGRAM, MPIEXEC, CATALYST, LOOPBACK = sys.argv[1:5]
 HERE = os.path.dirname(os.path.abspath(__file__))
 PATIENCE = 200.0  # s, for each thing waited for; machines may be busy
 SCREEN = (1600, 1000)
 # Two boxes that break, for as long as it takes to look at them.
-CASE = """title = "two boxes"
-[mesh.raster]
-cells = [3, 3, 2]
-cell_size = "10 mm"
-boxes = [2, 1, 1]
-gap = ["1 mm", "0 mm", "0 mm"]
-group = "box"
-[[material]]
-group = "box"
-young = "4 MPa"
-poisson = 0.3
-density = "2340 kg/m3"
-joints = "breakable"
-[[joint]]
-group = "box"
-penalty_factor = 10
-tensile_strength = "5 kPa"
-energy_mode_1 = "0.1 J/m2"
-[[contact]]
-between = ["*", "*"]
-penalty = "40 MPa"
-[[initial_velocity]]
-group = "box"
-random = ["1 m/s", "2 m/s"]
-seed = 3
-[sphere]
+CASE = two_boxes.case(cells=[3, 3, 2], strength="5 kPa", energy="0.1 J/m2", end="20 s", more="""[sphere]
 centre = ["30 mm", "15 mm", "10 mm"]
 radius = "38 mm"
 penalty = "40 MPa"
-[[stage]]
-name = "fly"
-end = "20 s"
-"""
+""")
 
 
 def free_port():

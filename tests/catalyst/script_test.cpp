@@ -106,7 +106,7 @@ TEST(Scripts, ThatFailAreToldInOneLineEachWithTheirPlaceOnAllRanksAndTheOthersGo
       EXPECT_THAT(scripts->text, testing::HasSubstr(OpenScripts::script("failing_writer.py") + ": "));
       if (number == 1) {
         EXPECT_THAT(scripts->text, testing::HasSubstr(OpenScripts::script("raises_at_import.py") +
-                                                      ": ValueError: no way to go on (raises_at_import.py:5)\n"));
+                                                      ": ValueError: this cannot continue (raises_at_import.py:5)\n"));
       }
       if (number == 7) {
         EXPECT_THAT(scripts->text, testing::HasSubstr("KeyError: 'seven' (raises_at_seventh_call.py:14)"));

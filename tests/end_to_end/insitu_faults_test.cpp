@@ -86,7 +86,7 @@ struct Failing {
 };
 
 constexpr Failing kFailing[] = {
-    {"raises_at_import.py", "ValueError: no way to go on (raises_at_import.py:5)"},
+    {"raises_at_import.py", "ValueError: this cannot continue (raises_at_import.py:5)"},
     {"raises_at_import_on_one_rank.py", "ValueError: cannot be read here (raises_at_import_on_one_rank.py:10)"},
     {"no_options.py", "AttributeError: 'NoneType' object has no attribute"},
     {"raises_in_initialize.py", "ValueError: cannot begin (raises_in_initialize.py:12)"},

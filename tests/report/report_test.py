@@ -305,7 +305,7 @@ def paraview():
 
 
 def events_of_the_filter(shown):
-    """Whoever opens the run in ParaView and applies Crack Events, as it starts, finds the same."""
+    """The filter Crack Events with its defaults gives the same events and b-value."""
     plugin = os.path.join(os.path.dirname(os.path.dirname(breccia)), "plugins/lib/breccia/paraview/Breccia/Breccia.so")
     script = f"""
 import json

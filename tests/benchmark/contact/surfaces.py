@@ -63,7 +63,7 @@ class Oblique:
     """A ball strikes a flat plate with friction at an angle to its normal, turned and placed at random."""
 
     name = "oblique"
-    FRICTION, POISSON, WITHIN = 0.3, 0.3, 0.05
+    FRICTION, POISSON, WITHIN = 0.3, 0.3, 0.03
     ANGLES, LAYERS = [20, 45, 70], 5
 
     def __init__(self, places):

@@ -2,4 +2,4 @@
 from paraview.simple import TrivialProducer
 
 surface = TrivialProducer(registrationName="surface")
-raise ValueError("no way\nto go on")
+raise ValueError("this cannot\ncontinue")

@@ -1,5 +1,5 @@
 # script-version: 2.0
-"""The last rank raises; the others would go on into a collective."""
+"""The last rank raises; the others would enter a collective operation."""
 from paraview import catalyst
 from paraview.simple import CreateExtractor, TrivialProducer
 from paraview.vtk.vtkParallelCore import vtkMultiProcessController

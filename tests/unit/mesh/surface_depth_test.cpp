@@ -71,6 +71,42 @@ TEST(SurfaceDepth, OfAnElementHasTheDistancesToAllSidesThatItMeetsWhetherItCanBr
   }
 }
 
+/// A steep pyramid of nine sides, in elements around its axis: each meets eight further sides at the apex.
+TEST(SurfaceDepth, LeavesOutNoSideThatIsNearerThanThoseStoredWhereAnElementMeetsMore) {
+  constexpr Index sides = 9;
+  Mesh pyramid;
+  pyramid.nodes = {Vec3(0, 0, 4), Vec3(0, 0, 0)};
+  for (Index i = 0; i < sides; ++i) {
+    const double angle = 2 * M_PI * i / sides;
+    pyramid.nodes.emplace_back(std::cos(angle), std::sin(angle), 0);
+    pyramid.elements.push_back({1, 2 + i, 2 + (i + 1) % sides, 0});
+  }
+  pyramid.volume_groups = {"pyramid"};
+  pyramid.element_group.assign(at(sides), 0);
+  pyramid.element_body.assign(at(sides), 0);
+  pyramid.num_bodies = 1;
+  for (Index e = 0; e < sides; ++e) pyramid.element_source_id.push_back(1 + e);
+  const SurfaceDepth depth = surface_depth(kWhole, pyramid, build_topology(pyramid));
+  const auto behind = [&](Index side, const Vec3& x) {  // m, of the plane of a side
+    const Vec3 &a = pyramid.nodes[at(2 + side)], &b = pyramid.nodes[at(2 + (side + 1) % sides)];
+    return (b - a).cross(pyramid.nodes[0] - a).normalized().dot(a - x);
+  };
+  for (Index e = 0; e < sides; ++e) {
+    const std::size_t planes = num_planes(depth.sides[at(e)]);
+    ASSERT_EQ(planes, kMostSides);
+    for (Index side = 0; side < sides; ++side) {
+      if (side == e) continue;  // its own face
+      const bool is_there = std::any_of(depth.planes[at(e)].begin(), depth.planes[at(e)].end(), [&](const auto& row) {
+        bool no_farther = true;
+        for (int c = 0; c < 4; ++c)
+          no_farther = no_farther && row[at(c)] <= behind(side, test::node_of(pyramid, e, c)) + kRoundOff;
+        return no_farther;
+      });
+      EXPECT_TRUE(is_there) << "side " << side << " of element " << e;
+    }
+  }
+}
+
 TEST(SurfaceDepth, HasMeanNormalsThatDoNotDependOnHowSidesAreCutIntoTriangles) {
   const Vec3 size(3 * 1.0, 2 * 0.75, 2 * 1.25);
   Mesh box = test::raster_box({3, 2, 2}).mesh;

@@ -45,7 +45,7 @@ TEST(GaugePoints, AnElementHoldsThePointAtItsWeights) {
   const case_::Case input = box(line("[0.001, 0.002, 0.003]", "[0.019, 0.009, 0.006]", 40));
   const Mesh mesh = build_mesh(input).mesh;
   const std::vector<GaugePoint> points = gauge_points(input);
-  const std::vector<HoldingElement> found = holding_elements(mesh, points);
+  const std::vector<HoldingElement> found = holding_elements(mesh, places_of(points));
   for (std::size_t p = 0; p < points.size(); ++p) {
     ASSERT_GE(found[p].element, 0) << p;
     const auto x = geometry::corners_of(mesh, found[p].element);
@@ -66,7 +66,7 @@ TEST(GaugePoints, WhereElementsMeetTheLowestHoldsThePoint) {
     for (const Vec3& x : geometry::corners_of(mesh, e))
       if ((x - Vec3(0.01, 0, 0)).norm() < 1e-12) lowest = e;
   }
-  EXPECT_EQ(holding_elements(mesh, gauge_points(input))[0].element, lowest);
+  EXPECT_EQ(holding_elements(mesh, places_of(gauge_points(input)))[0].element, lowest);
 }
 
 TEST(GaugePoints, APointOutsideIsRefusedWithTheNearestPlace) {
