@@ -119,9 +119,9 @@ class ExpressionParser {
     while (!rest_.empty() && std::isspace(static_cast<unsigned char>(rest_.front())) != 0) rest_.remove_prefix(1);
   }
   [[noreturn]] void fail(const std::string& wanted) const {
-    throw ExpressionError(
-        "is no condition: " + wanted + " is missing " + (rest_.empty() ? "at its end" : "before " + in_quotes(rest_)),
-        kForm);
+    throw ExpressionError("is not a condition: " + wanted + " is missing " +
+                              (rest_.empty() ? "at its end" : "before " + in_quotes(rest_)),
+                          kForm);
   }
   bool take(std::string_view sign) {
     skip_spaces();
@@ -197,9 +197,9 @@ class ExpressionParser {
     demand(left, false, sign);
     demand(right, false, sign);
     if (left.unit && right.unit && *left.unit != *right.unit)
-      throw ExpressionError("has a " + name_of_measure(left.unit) + " and a " + name_of_measure(right.unit) +
-                                " on the two sides of " + sign,
-                            "two of one dimension; a number without a unit fits any");
+      throw ExpressionError(
+          "has " + name_of_measure(left.unit) + " and " + name_of_measure(right.unit) + " on the two sides of " + sign,
+          "two of one dimension; a number without a unit fits any");
     return left.unit ? left.unit : right.unit;
   }
 

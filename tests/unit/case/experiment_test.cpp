@@ -78,7 +78,7 @@ TEST(Experiment, AConditionIsRefusedWithFileLineKeyAndTheNearestNames) {
   EXPECT_THAT(refusal("\n[[trigger]]\nwhen = \"broken_jonts > 5\"\naction = \"frame\"\n"),
               AllOf(HasSubstr("case.toml:"), HasSubstr("trigger[0].when: "), HasSubstr("broken_joints"),
                     HasSubstr("given: broken_jonts > 5")));
-  EXPECT_THAT(refusal("", {"time.stop_when=\"broken_joints >\""}), HasSubstr("time.stop_when: is no condition"));
+  EXPECT_THAT(refusal("", {"time.stop_when=\"broken_joints >\""}), HasSubstr("time.stop_when: is not a condition"));
   EXPECT_THAT(refusal("", {"stage[0].stop_when=\"support.reaction_w > 1\""}),
               AllOf(HasSubstr("stage[0].stop_when: "), HasSubstr("support.reaction_x")));
 }

@@ -77,7 +77,7 @@ TEST(Expression, ReadsUnitsByTheRulesOfTheCase) {
 }
 
 TEST(Expression, RefusesTwoDimensionsOnTheSidesOfASign) {
-  EXPECT_THAT(message("bar.x1.reaction_x > 1 mm"), HasSubstr("has a force and a length on the two sides of >"));
+  EXPECT_THAT(message("bar.x1.reaction_x > 1 mm"), HasSubstr("has force and length on the two sides of >"));
   EXPECT_THAT(message("bar.x1.reaction_x + bar.x1.displacement_x > 1"), HasSubstr("on the two sides of +"));
   EXPECT_THAT(message("bar.x1.reaction_x > 0.5 * peak(bar.x1.displacement_x)"), HasSubstr("a force and a length"));
   EXPECT_THAT(message("broken_joints > 5 N"), HasSubstr("a plain number and a force"));
