@@ -197,9 +197,9 @@ class ExpressionParser {
     demand(left, false, sign);
     demand(right, false, sign);
     if (left.unit && right.unit && *left.unit != *right.unit)
-      throw ExpressionError(
-          "has " + name_of_measure(left.unit) + " and " + name_of_measure(right.unit) + " on the two sides of " + sign,
-          "two of one dimension; a number without a unit fits any");
+      throw ExpressionError("has two dimensions on the two sides of " + sign + ": " + name_of_measure(left.unit) +
+                                " and " + name_of_measure(right.unit),
+                            "two of one dimension; a number without a unit fits any");
     return left.unit ? left.unit : right.unit;
   }
 

@@ -77,10 +77,12 @@ TEST(Expression, ReadsUnitsByTheRulesOfTheCase) {
 }
 
 TEST(Expression, RefusesTwoDimensionsOnTheSidesOfASign) {
-  EXPECT_THAT(message("bar.x1.reaction_x > 1 mm"), HasSubstr("has force and length on the two sides of >"));
-  EXPECT_THAT(message("bar.x1.reaction_x + bar.x1.displacement_x > 1"), HasSubstr("on the two sides of +"));
-  EXPECT_THAT(message("bar.x1.reaction_x > 0.5 * peak(bar.x1.displacement_x)"), HasSubstr("a force and a length"));
-  EXPECT_THAT(message("broken_joints > 5 N"), HasSubstr("a plain number and a force"));
+  EXPECT_THAT(message("bar.x1.reaction_x > 1 mm"),
+              HasSubstr("has two dimensions on the two sides of >: force and length"));
+  EXPECT_THAT(message("bar.x1.reaction_x + bar.x1.displacement_x > 1"),
+              HasSubstr("on the two sides of +: force and length"));
+  EXPECT_THAT(message("bar.x1.reaction_x > 0.5 * peak(bar.x1.displacement_x)"), HasSubstr(": force and length"));
+  EXPECT_THAT(message("broken_joints > 5 N"), HasSubstr(": plain number and force"));
   EXPECT_THAT(message("time > 1 s for 2 N"), HasSubstr("the duration behind for is of dimension force"));
 }
 
